@@ -1,0 +1,147 @@
+#include "filter_massprops/parameters.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace massprops {
+namespace {
+
+QStringList goalNames() {
+  return {"Stand", "Spin"};
+}
+
+QStringList axisNames() {
+  return {"+Z", "+Y", "+X", "-Z", "-Y", "-X"};
+}
+
+/// The decimal number that was typed: MeshLab may keep parameters in single precision, where 1.24
+/// becomes 1.2400000095.
+template <class Scalar>
+double asTyped(Scalar value) {
+  if (!std::isfinite(value)) return static_cast<double>(value);
+  std::array<char, 64> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  double result = 0.0;
+  std::from_chars(text.data(), end, result);
+  return result;
+}
+
+double number(const RichParameterList& parameters, const char* name) {
+  return asTyped(parameters.getFloat(name));
+}
+
+double length(const RichParameterList& parameters, const char* name) {
+  return asTyped(parameters.getAbsPerc(name));
+}
+
+std::optional<double> unlessZero(double value) {
+  return value == 0.0 ? std::nullopt : std::optional(value);
+}
+
+int entry(const RichParameterList& parameters, const char* name, const QStringList& list) {
+  const int value = parameters.getEnum(name);
+  if (value < 0 || value >= list.size()) {
+    throw InvalidInput(std::string("The parameter '") + name + "' is entry " +
+                       std::to_string(value) + ", but its list has the entries 0 to " +
+                       std::to_string(list.size() - 1) + ".");
+  }
+  return value;
+}
+
+void addWeight(RichParameterList& list, const char* name, double value, const char* label,
+               const char* meaning) {
+  list.addParam(RichFloat(name, static_cast<float>(value), label,
+                          QString(meaning) + " Dimensionless; 0 switches the term off."));
+}
+
+} // namespace
+
+RichParameterList dialogParameters(double diagonal) {
+  const Options defaults;
+  const auto range = static_cast<float>(diagonal);
+  RichParameterList list;
+  list.addParam(RichEnum("goal", static_cast<int>(defaults.goal), goalNames(), "Goal",
+                         "What the model shall do once it is printed. Stand: it stands on its "
+                         "ground contacts, as hard to tip over as possible. Spin: it spins as a "
+                         "top about the vertical axis through its lowest point."));
+  list.addParam(RichInt("basis_k", defaults.basisSize, "Basis functions",
+                        "Number of harmonic functions that describe the cavity, at least 1 and "
+                        "less than the number of vertices. More of them shape the cavity in finer "
+                        "detail and take longer."));
+  list.addParam(RichFloat("radius_x", 0.0F, "Contact radius x",
+                          "Half axis of the elliptic contact area along the first horizontal axis "
+                          "(x when z is up), in model units. 0: taken from the model's ground "
+                          "contacts."));
+  list.addParam(RichFloat("radius_y", 0.0F, "Contact radius y",
+                          "Half axis of the elliptic contact area along the second horizontal axis "
+                          "(y when z is up), in model units. 0: taken from the model's ground "
+                          "contacts."));
+  list.addParam(RichLength("inner_lower_bound", 0.01F * range, 0.0F, range,
+                           "Minimum wall thickness",
+                           "Least distance of the cavity from the outer surface, in model units "
+                           "(read as mm) or percent of the bounding-box diagonal. Parts that are "
+                           "too thin for it stay solid."));
+  list.addParam(RichFloat("inner_upper_bound", static_cast<float>(defaults.innerUpperBound),
+                          "Greatest inner offset",
+                          "Greatest offset of the cavity's surface, as a fraction between 0 and 1 "
+                          "of the distance from the outer surface to the skeleton."));
+  list.addParam(RichLength("outer_lower_bound", static_cast<float>(defaults.outerLowerBound), 0.0F,
+                           range, "Least outer offset",
+                           "Least outward displacement of the outer surface, in model units (read "
+                           "as mm) or percent of the bounding-box diagonal. The outer surface "
+                           "stays when both outer offsets are 0."));
+  list.addParam(RichLength("outer_upper_bound", static_cast<float>(defaults.outerUpperBound), 0.0F,
+                           range, "Greatest outer offset",
+                           "Greatest outward displacement of the outer surface, in model units "
+                           "(read as mm) or percent of the bounding-box diagonal. The outer "
+                           "surface stays when both outer offsets are 0."));
+  const Weights& weights = defaults.weights;
+  addWeight(list, "opt_weight_1", weights.volume, "Weight 1: volume",
+            "Weight of the material's volume relative to the solid's.");
+  addWeight(list, "opt_weight_2", weights.centerOfMass, "Weight 2: centre of mass",
+            "Weight of the goal's terms in the centre of mass: low, and over the contact area.");
+  addWeight(list, "opt_weight_3", weights.inertia, "Weight 3: moments of inertia",
+            "Weight of the goal's terms in the moments of inertia.");
+  addWeight(list, "opt_weight_4", weights.smoothness, "Weight 4: smoothness",
+            "Weight of the smoothness of the offsets over the surface.");
+  addWeight(list, "opt_weight_5", weights.constraints, "Weight 5: constraints",
+            "Weight of the squared violation of the goal's constraints; 0 also lifts the "
+            "constraints themselves.");
+  addWeight(list, "opt_weight_6", weights.outer, "Weight 6: outer displacement",
+            "Weight of the mean squared displacement of the outer surface.");
+  list.addParam(RichEnum("up_axis", static_cast<int>(defaults.upAxis), axisNames(), "Up axis",
+                         "Axis of the scene that points up when the print stands or spins."));
+  list.addParam(RichFloat("density", static_cast<float>(defaults.density), "Density",
+                          "Density of the material in g/cm\u00b3, model units read as mm. 1.24 is "
+                          "PLA."));
+  list.addParam(RichFloat("fill_density", static_cast<float>(defaults.fillDensity),
+                          "Density of the filling",
+                          "Density of what fills the cavity in g/cm\u00b3, model units read as mm. "
+                          "0 is air, 1 is water."));
+  return list;
+}
+
+Options optionsFrom(const RichParameterList& parameters) {
+  Options options;
+  options.goal = static_cast<GoalKind>(entry(parameters, "goal", goalNames()));
+  options.basisSize = parameters.getInt("basis_k");
+  options.radiusX = unlessZero(number(parameters, "radius_x"));
+  options.radiusY = unlessZero(number(parameters, "radius_y"));
+  options.innerLowerBound = length(parameters, "inner_lower_bound");
+  options.innerUpperBound = number(parameters, "inner_upper_bound");
+  options.outerLowerBound = length(parameters, "outer_lower_bound");
+  options.outerUpperBound = length(parameters, "outer_upper_bound");
+  options.weights.volume = number(parameters, "opt_weight_1");
+  options.weights.centerOfMass = number(parameters, "opt_weight_2");
+  options.weights.inertia = number(parameters, "opt_weight_3");
+  options.weights.smoothness = number(parameters, "opt_weight_4");
+  options.weights.constraints = number(parameters, "opt_weight_5");
+  options.weights.outer = number(parameters, "opt_weight_6");
+  options.upAxis = static_cast<UpAxis>(entry(parameters, "up_axis", axisNames()));
+  options.density = number(parameters, "density");
+  options.fillDensity = number(parameters, "fill_density");
+  return options;
+}
+
+} // namespace massprops

@@ -1,0 +1,29 @@
+#!/bin/sh
+# Runs the installed meshlabserver with our filter on a virtual display; arguments and exit status
+# are meshlabserver's. MASSPROPS_PLUGIN names another build of the filter.
+#
+# MeshLab looks for plugins only next to its own program or where its package puts them. A private
+# copy of the program with links to all plugins beside it needs no write access to the system.
+set -eu
+root=$(cd "$(dirname "$0")/.." && pwd)
+plugin=${MASSPROPS_PLUGIN:-$root/build/release/plugins/libfilter_massprops.so}
+[ -f "$plugin" ] || { echo "$plugin is missing: run scripts/setup.sh first." >&2; exit 2; }
+plugin=$(realpath "$plugin")
+
+program=$(command -v meshlabserver) || { echo "meshlabserver is not installed." >&2; exit 2; }
+libraries=$(dirname "$(dpkg -L meshlab | grep '/libmeshlab-common\.so$')")
+
+host=$(dirname "$(dirname "$plugin")")/meshlab-host
+# Several runs may start at once: the folder appears complete or not at all.
+if [ ! -d "$host" ] || [ "$program" -nt "$host/meshlabserver" ]; then
+  fresh=$(mktemp -d "$host.XXXXXX")
+  mkdir "$fresh/plugins"
+  ln -s "$libraries"/plugins/*.so "$fresh/plugins/"
+  ln -sf "$plugin" "$fresh/plugins/libfilter_massprops.so"
+  cp "$program" "$fresh/meshlabserver"
+  rm -rf "$host"
+  mv -T "$fresh" "$host" 2>/dev/null || rm -rf "$fresh"
+fi
+
+exec xvfb-run -a env LD_LIBRARY_PATH="$libraries${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}" \
+  "$host/meshlabserver" "$@"

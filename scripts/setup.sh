@@ -1,0 +1,47 @@
+#!/bin/sh
+# Makes a bare Debian 12 machine ready and builds everything: installs the packages that are
+# missing, gets the headers of the installed MeshLab, configures and builds build/release. What is
+# done already is skipped.
+set -eu
+cd "$(dirname "$0")/.."
+
+packages="
+  meshlab dpkg-dev
+  g++ cmake ninja-build
+  libcgal-dev libeigen3-dev libspectra-dev libnlopt-dev
+  qtbase5-dev libqt5opengl5-dev libglew-dev libgl-dev
+  libgtest-dev libbenchmark-dev clang-format-14 clang-tidy-14
+  xvfb xauth libgl1-mesa-dri
+  python3 python3-numpy python3-vtk9
+"
+
+as_root() {
+  if [ "$(id -u)" -eq 0 ]; then
+    env DEBIAN_FRONTEND=noninteractive "$@"
+  else
+    sudo env DEBIAN_FRONTEND=noninteractive "$@"
+  fi
+}
+
+missing=
+for package in $packages; do
+  status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
+  [ "$status" = installed ] || missing="$missing $package"
+done
+if [ -n "$missing" ]; then
+  echo "Installing:$missing"
+  # The package lists may be absent or out of date; other people's repositories may be down.
+  # shellcheck disable=SC2086
+  as_root apt-get install -qq -y --no-install-recommends $missing >/dev/null 2>&1 || {
+    as_root apt-get update -qq || true
+    as_root apt-get install -qq -y --no-install-recommends $missing >/dev/null
+  }
+fi
+
+scripts/fetch_meshlab_source.sh build/meshlab-source >/dev/null
+
+cmake --preset release -DMASSPROPS_WERROR=ON >build/configure.log 2>&1 || {
+  cat build/configure.log >&2
+  exit 1
+}
+cmake --build --preset release

@@ -1,0 +1,6 @@
+#!/bin/sh
+# Sets the machine up, builds, and runs every test.
+set -eu
+cd "$(dirname "$0")/.."
+scripts/setup.sh
+exec ctest --preset release --parallel "$(nproc)" "$@"
