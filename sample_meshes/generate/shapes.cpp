@@ -1,0 +1,132 @@
+#include "shapes.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace samples {
+namespace {
+
+/// A box that stands on a cut-off corner, a little off its balance.
+Sample boxOnCorner() {
+  const Vec3 size(60, 50, 40);
+  // The corner (−,−,−) points down, from there the space diagonal goes up; then it leans.
+  const Vec3 down = -size.normalized();
+  const Eigen::Matrix3d upright =
+      Eigen::Quaterniond::FromTwoVectors(down, -Vec3::UnitZ()).toRotationMatrix();
+  const Eigen::Matrix3d turn = rotation(Vec3(1, 1, 0), 0.22) * upright;
+  const double cut = 8.5;
+  const Vec3 corner = turn * (-size / 2);
+  const Vec3 center(-corner.x(), -corner.y(), -corner.z() - cut);
+  Sample sample{"box_on_corner", {}};
+  sample.problem.solid = moved(roundedBox(size, 3), turn, center);
+  sample.problem.lower = Vec3(-60, -60, 0);
+  sample.problem.upper = Vec3(60, 60, 90);
+  sample.problem.vertexCount = 6129;
+  return sample;
+}
+
+/// A spinning top: an ellipsoid with three different radii, tilted and off the axis of its stick.
+Sample tiltedEllipsoidTop() {
+  const Implicit body = moved(ellipsoid(Vec3::Zero(), Vec3(27, 24, 15)),
+                              rotation(Vec3(0.3, 1, 0), 0.07), Vec3(1.2, -0.6, 25));
+  const Implicit stick = roundCone(Vec3(0, 0, 1.6), 2.6, Vec3(0, 0, 14), 5);
+  const Implicit handle = roundCone(Vec3(0, 0, 20), 4.2, Vec3(0, 0, 58), 3.4);
+  Sample sample{"tilted_ellipsoid_top", {}};
+  sample.problem.solid = smoothUnion(smoothUnion(body, stick, 9), handle, 9);
+  sample.problem.lower = Vec3(-34, -34, 0);
+  sample.problem.upper = Vec3(34, 34, 66);
+  sample.problem.vertexCount = 750;
+  sample.problem.relativeEdgeLength = [](const Vec3& p) {
+    const double radius = std::sqrt(p.x() * p.x() + p.y() * p.y());
+    const double far = std::clamp(radius / 14, 0.0, 1.0);
+    const double foot = std::clamp(p.z() / 12, 0.0, 1.0);
+    return (0.55 + 0.45 * far) * (0.6 + 0.4 * foot);
+  };
+  return sample;
+}
+
+/// A toy dinosaur on two feet whose big head pulls it over.
+Sample toyDinosaur() {
+  const auto limb = [](Implicit solid, std::vector<std::pair<Vec3, double>> chain, double blend) {
+    Implicit part;
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+      const Implicit bone =
+          roundCone(chain[i].first, chain[i].second, chain[i + 1].first, chain[i + 1].second);
+      part = part ? smoothUnion(part, bone, 6) : bone;
+    }
+    return solid ? smoothUnion(solid, part, blend) : part;
+  };
+  Implicit trunk = roundCone(Vec3(-9, 0, 38), 17, Vec3(12, 0, 53), 15);
+  trunk = smoothUnion(trunk, ellipsoid(Vec3(5, 0, 42), Vec3(18, 17, 17)), 6);
+  trunk = limb(trunk,
+               {{{-14, 0, 36}, 14}, {{-33, 0, 26}, 9}, {{-50, 0, 23}, 6}, {{-63, 0, 29}, 3.6}}, 10);
+  trunk = limb(trunk, {{{13, 0, 56}, 12}, {{22, 0, 76}, 11}}, 8);
+
+  // An open mouth between the snout and the lower jaw.
+  Implicit head = ellipsoid(Vec3(26, 0, 85), Vec3(17, 15, 14));
+  head = smoothUnion(head, roundCone(Vec3(35, 0, 84), 11.5, Vec3(56, 0, 82), 9), 6);
+  head = smoothUnion(head, roundCone(Vec3(28, 0, 73), 9, Vec3(49, 0, 63), 5.5), 4);
+  trunk = smoothUnion(trunk, head, 6);
+
+  // The parts that come in pairs, on the side y > 0.
+  Implicit leg = limb({}, {{{-10, 12, 34}, 12}, {{-9, 14, 20}, 9}, {{-15, 14, 8}, 7}}, 6);
+  Implicit foot = roundCone(Vec3(-16, 14, 4.2), 6.5, Vec3(-6, 15, 3.6), 6);
+  for (const double side : {-4.8, 0.0, 4.8})
+    foot = smoothUnion(foot, ball(Vec3(-0.5 - std::abs(side) / 4, 15 + side, 2.2), 3.9), 5);
+  leg = smoothUnion(leg, foot, 5);
+  Implicit arm = limb({}, {{{17, 11, 53}, 6}, {{24, 18, 46}, 4.8}, {{32, 16, 47}, 4.4}}, 4);
+  for (const double side : {-2.6, 2.6})
+    arm = smoothUnion(
+        arm, roundCone(Vec3(33, 15.5, 47 + side / 2), 3, Vec3(38, 15, 46.5 + side), 2.3), 3);
+  const Implicit eye = ball(Vec3(34, 10.5, 93), 5);
+
+  Implicit solid = smoothUnion(trunk, mirroredY(leg, 4), 6);
+  solid = smoothUnion(solid, mirroredY(arm, 4), 4);
+  solid = smoothUnion(solid, mirroredY(eye, 4), 3);
+
+  Sample sample{"toy_dinosaur", {}};
+  sample.problem.solid = solid;
+  sample.problem.lower = Vec3(-72, -30, 0);
+  sample.problem.upper = Vec3(70, 30, 106);
+  sample.problem.vertexCount = 11000;
+  return sample;
+}
+
+/// A ring on a flat foot, leaning out of its own plane.
+Sample leaningRing() {
+  const double tilt = 0.14;
+  const Eigen::Matrix3d turn = rotation(Vec3(-1, 0, 0), tilt);
+  const Implicit ring = moved(torus(26, 9), turn, turn * Vec3(0, 0, 36));
+  const Implicit foot = ellipsoid(Vec3(0, 0, 3), Vec3(16, 8, 7));
+  Sample sample{"leaning_ring", {}};
+  sample.problem.solid = smoothUnion(ring, foot, 8);
+  sample.problem.lower = Vec3(-40, -20, 0);
+  sample.problem.upper = Vec3(40, 34, 78);
+  sample.problem.vertexCount = 6000;
+  return sample;
+}
+
+/// An egg that leans so far over its small foot that no cavity helps.
+Sample leaningEgg() {
+  const Eigen::Matrix3d turn = rotation(Vec3(0, 1, 0), 0.3);
+  const Vec3 tip(9, 0, 18);
+  const Implicit egg = roundCone(tip, 16, tip + turn * Vec3(0, 0, 18), 22);
+  const Implicit foot = roundCone(Vec3(0, 0, 4.5), 6.5, Vec3(6, 0, 14), 7);
+  Sample sample{"leaning_egg", {}};
+  sample.problem.solid = smoothUnion(egg, foot, 8);
+  sample.problem.lower = Vec3(-30, -30, 0);
+  sample.problem.upper = Vec3(60, 30, 74);
+  sample.problem.vertexCount = 3000;
+  return sample;
+}
+
+} // namespace
+
+std::vector<Sample> allSamples() {
+  return {boxOnCorner(), tiltedEllipsoidTop(), toyDinosaur(), leaningRing(), leaningEgg()};
+}
+
+} // namespace samples
