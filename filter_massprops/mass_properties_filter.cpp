@@ -13,6 +13,7 @@ using namespace massprops;
 namespace {
 
 constexpr FilterId kFilter = 0;
+const char* const kName = "Mass Property Optimization";
 
 const char* const kInfo =
     "Hollows a closed model so that its print stands or spins: finds the cavity that brings centre "
@@ -82,7 +83,7 @@ double diagonalOf(const MeshModel& layer) {
 
 double diagonalOfCurrentLayer(const MeshDocument& document) {
   // MeshLab asks for the parameters of an empty document, too.
-  const MeshModel* layer = const_cast<MeshDocument&>(document).mm();
+  const MeshModel* layer = document.mm();
   return layer == nullptr ? 0.0 : diagonalOf(*layer);
 }
 
@@ -95,7 +96,7 @@ public:
   NewLayers& operator=(const NewLayers&) = delete;
   ~NewLayers() {
     if (kept_) return;
-    for (MeshModel* layer : added_) document_.delMesh(layer);
+    for (MeshModel* layer : added_) removeLayer(document_, layer);
   }
 
   void add(const TriangleMesh& surface, const char* what) {
@@ -113,14 +114,6 @@ public:
   }
 
 private:
-  static void updateBoxAndNormals(MeshModel& layer) {
-#if MASSPROPS_MESHLAB_API >= 2022
-    layer.updateBoxAndNormals();
-#else
-    layer.UpdateBoxAndNormals();
-#endif
-  }
-
   MeshDocument& document_;
   const MeshModel& input_;
   Placement placement_;
@@ -149,7 +142,7 @@ struct ToVariant {
     Matrix33m matrix;
     for (int row = 0; row < 3; ++row) {
       for (int column = 0; column < 3; ++column) {
-        matrix.ElementAt(row, column) = static_cast<Scalarm>(value(row, column));
+        matrix[row][column] = static_cast<Scalarm>(value(row, column));
       }
     }
     return QVariant::fromValue(matrix);
@@ -187,7 +180,7 @@ std::string failureOf(const Run& run) {
 
 MassPropertiesFilter::MassPropertiesFilter() {
   typeList.push_back(kFilter);
-  actionList.push_back(new QAction(filterName(kFilter), this));
+  actionList.push_back(new QAction(kName, this));
 }
 
 QString MassPropertiesFilter::pluginName() const {
@@ -195,7 +188,7 @@ QString MassPropertiesFilter::pluginName() const {
 }
 
 QString MassPropertiesFilter::filterName(FilterId) const {
-  return "Mass Property Optimization";
+  return kName;
 }
 
 QString MassPropertiesFilter::filterInfo(FilterId) const {

@@ -25,10 +25,24 @@ using ReturnedValues = std::map<std::string, QVariant>;
 using FilterId = FilterPlugin::ActionIDType;
 using FilterArity = FilterPlugin::FilterArity;
 using ActionPointer = const QAction*;
+
+inline void updateBoxAndNormals(MeshModel& layer) {
+  layer.updateBoxAndNormals();
+}
+inline void removeLayer(MeshDocument& document, MeshModel* layer) {
+  document.delMesh(layer->id());
+}
 #else
 using FilterId = MeshFilterInterface::FilterIDType;
 using FilterArity = MeshFilterInterface::FILTER_ARITY;
 using ActionPointer = QAction*;
+
+inline void updateBoxAndNormals(MeshModel& layer) {
+  layer.UpdateBoxAndNormals();
+}
+inline void removeLayer(MeshDocument& document, MeshModel* layer) {
+  document.delMesh(layer);
+}
 #endif
 
 } // namespace massprops

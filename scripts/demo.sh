@@ -1,0 +1,59 @@
+#!/bin/sh
+# Sets the machine up, builds, runs the filter through the real meshlabserver on every sample mesh,
+# and writes into out/, for each sample:
+#   <name>_inner.ply   the cavity's surface
+#   <name>_solid.stl   outer and inner surface together, ready for a slicer
+#   <name>_report.txt  the numbers, before and after
+#   <name>.png         a picture of the model cut open
+# The texts of all programs that ran are in out/<name>.log.
+#
+# usage: scripts/demo.sh [sample name ...]
+set -eu
+cd "$(dirname "$0")/.."
+scripts/setup.sh
+mkdir -p out
+
+if [ $# -eq 0 ]; then
+  for mesh in sample_meshes/*.ply; do
+    set -- "$@" "$(basename "$mesh" .ply)"
+  done
+fi
+
+for name in "$@"; do
+  mesh=sample_meshes/$name.ply
+  inner=out/${name}_inner.ply
+  solid=out/${name}_solid.stl
+  report=out/${name}_report.txt
+  log=out/$name.log
+  case $name in
+    box_on_corner) script=sample_meshes/stand.mlx ;;
+    tilted_ellipsoid_top) script=sample_meshes/spin.mlx ;;
+    *) script=sample_meshes/$name.mlx ;;
+  esac
+  rm -f "$inner" "$solid" "$report" "out/$name.png"
+
+  scripts/meshlabserver.sh -i "$mesh" -o "$inner" -l x -s "$script" >"$log" 2>>"$log" || {
+    cat "$log" >&2
+    exit 1
+  }
+  sed -nE 's/^([a-z][a-z0-9_]* = .*)$/\1/p' "$log" >"$report"
+  if grep -q '^cavity_components = 0$' "$report"; then
+    # Without a cavity the last layer is the model itself.
+    rm -f "$inner"
+  fi
+  python=/usr/bin/python3
+  $python scripts/report_table.py "$report" "$name"
+
+  if [ -f "$inner" ]; then
+    scripts/meshlabserver.sh -i "$mesh" "$inner" -o "$solid" -l x -s scripts/flatten.mlx \
+      >>"$log" 2>&1 || { cat "$log" >&2; exit 1; }
+  else
+    scripts/meshlabserver.sh -i "$mesh" -o "$solid" >>"$log" 2>&1
+  fi
+  xvfb-run -a $python scripts/render.py --outer "$mesh" --inner "$inner" --report "$report" \
+    --output "out/$name.png" >>"$log" 2>&1 || { cat "$log" >&2; exit 1; }
+done
+
+echo
+echo "Written:"
+ls -l out/*.ply out/*.stl out/*.png
