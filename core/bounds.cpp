@@ -1,0 +1,66 @@
+#include "core/bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace massprops {
+namespace {
+
+/// Below this clearance (about 87°) an offset would have to be 20 walls long.
+constexpr double kLeastClearance = 0.05;
+/// Offsets need some room to be worth a cavity: a share of the greatest one.
+constexpr double kLeastRoom = 0.02;
+constexpr double kContactHeight = 1e-4;
+
+} // namespace
+
+OffsetBounds innerBounds(const OffsetField& field, double wall, double factor) {
+  return {wall * field.clearance.cwiseMax(kLeastClearance).cwiseInverse(), factor * field.reach};
+}
+
+std::vector<char> tooThin(const OffsetField& field, const OffsetBounds& bounds) {
+  std::vector<char> thin(static_cast<std::size_t>(bounds.lower.size()));
+  for (Eigen::Index v = 0; v < bounds.lower.size(); ++v) {
+    const bool room = bounds.lower[v] <= (1.0 - kLeastRoom) * bounds.upper[v];
+    thin[static_cast<std::size_t>(v)] = field.clearance[v] > kLeastClearance && room ? 0 : 1;
+  }
+  return thin;
+}
+
+OffsetBounds outerBounds(const Points& vertices, const OffsetField& field, double lower,
+                         double upper) {
+  OffsetBounds bounds;
+  bounds.upper = Vector::Constant(vertices.rows(), upper);
+  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
+    const double height = vertices(v, 2);
+    const double descent = -field.directions(v, 2);
+    if (height <= kContactHeight || field.clearance[v] <= kLeastClearance) {
+      bounds.upper[v] = 0.0;
+    } else if (descent > 0.0) {
+      bounds.upper[v] = std::min(upper, (height - kContactHeight) / descent);
+    }
+  }
+  bounds.lower = bounds.upper.cwiseMin(lower);
+  return bounds;
+}
+
+BoundedOffsets boundMap(const OffsetBounds& bounds, const Vector& t) {
+  BoundedOffsets result{Vector(t.size()), Vector(t.size())};
+  for (Eigen::Index i = 0; i < t.size(); ++i) {
+    const double centre = 0.5 * (bounds.upper[i] + bounds.lower[i]);
+    const double halfWidth = 0.5 * (bounds.upper[i] - bounds.lower[i]);
+    if (halfWidth <= 0.0) {
+      result.offsets[i] = bounds.upper[i];
+      result.slopes[i] = 0.0;
+      continue;
+    }
+    const double tau = (t[i] - centre) / halfWidth;
+    const double root = 1.0 / std::sqrt(1.0 + tau * tau);
+    result.offsets[i] = centre + halfWidth * tau * root;
+    result.slopes[i] = root * root * root;
+  }
+  return result;
+}
+
+} // namespace massprops

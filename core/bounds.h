@@ -1,0 +1,39 @@
+// How far every vertex may move, and the map that keeps it there.
+#pragma once
+
+#include "core/offset_field.h"
+#include "core/types.h"
+
+#include <vector>
+
+namespace massprops {
+
+/// Bounds l_i ≤ u_i on the offsets, n each, working lengths.
+struct OffsetBounds {
+  Vector lower, upper;
+};
+
+/// Inner surface: l_i = wall / clearance_i, so that the displaced faces are at least `wall` behind
+/// their originals, measured perpendicular to them; u_i = factor·r_i. Where the body is too thin,
+/// l_i > u_i. docs/math.md "Wall thickness".
+OffsetBounds innerBounds(const OffsetField& field, double wall, double factor);
+
+/// Vertices without room between their bounds, or without a direction that moves all their faces
+/// inwards: 1, else 0.
+std::vector<char> tooThin(const OffsetField& field, const OffsetBounds& bounds);
+
+/// Outer surface: displacements in [lower, upper] along d_i; no vertex goes below the ground z = 0
+/// and the ground contacts stay where they are.
+OffsetBounds outerBounds(const Points& vertices, const OffsetField& field, double lower,
+                         double upper);
+
+/// Offsets φ_i(t_i) in (l_i, u_i) and the derivatives φ'_i(t_i) in (0, 1], n each.
+struct BoundedOffsets {
+  Vector offsets, slopes;
+};
+
+/// φ(t) = c + w/2 · τ/√(1+τ²) with τ = 2(t−c)/w, c = (u+l)/2, w = u−l: smooth, monotone, slope 1 at
+/// the middle, scale-free. docs/math.md "Bounds inside the objective".
+BoundedOffsets boundMap(const OffsetBounds& bounds, const Vector& t);
+
+} // namespace massprops

@@ -1,0 +1,117 @@
+#include "core/cavity_search.h"
+
+#include "core/graph.h"
+#include "core/spatial.h"
+#include "core/stopwatch.h"
+
+#include <algorithm>
+
+namespace massprops {
+namespace {
+
+constexpr int kMostRounds = 30;
+/// From this round on what fails becomes solid at once.
+constexpr int kPatience = 8;
+/// A step that was seen to clear most folds in one to three rounds.
+constexpr double kShrink = 0.6;
+constexpr double kBoundSlope = 1.0;
+
+/// Moves the bounds so that what the inspection found cannot happen again in the same way.
+void tighten(const CavityTask& task, const CavityResult& result, const Neighbours& neighbours,
+             OffsetBounds& bounds, std::vector<char>& solid, bool patient) {
+  const auto mark = [&](int v) {
+    solid[static_cast<std::size_t>(v)] = 1;
+    for (const int w : neighbours[static_cast<std::size_t>(v)]) {
+      solid[static_cast<std::size_t>(w)] = 1;
+    }
+  };
+  if (!patient) {
+    for (const int v : result.inspection.crossing) mark(v);
+    for (const int v : result.inspection.thin) mark(v);
+    return;
+  }
+  for (const int v : result.inspection.crossing) {
+    bounds.upper[v] = std::min(bounds.upper[v], kShrink * result.innerOffsets[v]);
+  }
+  const SurfaceIndex outer(result.outer, task.faces);
+  for (const int v : result.inspection.thin) {
+    // Does going deeper lead away from the nearest point of the outer surface?
+    const Vec3 y = result.inner.row(v).transpose();
+    const SurfaceIndex::Nearest nearest = outer.nearest(y);
+    const double missing = 1.1 * (task.wall - result.inspection.wall[v]);
+    const double gain = -(y - nearest.point).dot(task.field.directions.row(v)) / nearest.distance;
+    if (gain > 0.0) {
+      bounds.lower[v] = std::max(bounds.lower[v], result.innerOffsets[v] + missing);
+    } else {
+      bounds.upper[v] = std::min(bounds.upper[v], result.innerOffsets[v] - missing);
+    }
+  }
+  bounds.lower = lipschitzAbove(task.vertices, neighbours, bounds.lower, kBoundSlope);
+  bounds.upper = lipschitzBelow(task.vertices, neighbours, bounds.upper, kBoundSlope);
+}
+
+void addMarks(std::vector<char>& solid, const std::vector<char>& more) {
+  for (std::size_t v = 0; v < solid.size(); ++v) solid[v] = solid[v] != 0 || more[v] != 0 ? 1 : 0;
+}
+
+/// Keeps u ≥ l at solid vertices, whose offsets no longer matter.
+void keepOrdered(OffsetBounds& bounds) {
+  bounds.lower = bounds.lower.cwiseMin(bounds.upper);
+}
+
+} // namespace
+
+CavityResult searchCavity(const CavityTask& task, const std::function<void(double)>& progress) {
+  const Neighbours neighbours = vertexNeighbours(task.vertices.rows(), task.faces);
+  OffsetBounds bounds = task.inner;
+  bounds.lower = lipschitzAbove(task.vertices, neighbours, bounds.lower, kBoundSlope);
+  std::vector<char> solid = tooThin(task.field, bounds);
+
+  OffsetModel model{
+      task.vertices, task.faces, task.field.directions, task.basis, task.L, task.mass, bounds,
+      task.outer,    {},         task.fillDensity};
+  const Vector middle = 0.5 * (bounds.lower + bounds.upper);
+  const Vector outerMiddle =
+      task.outer ? Vector(0.5 * (task.outer->lower + task.outer->upper)) : Vector();
+  Vector coefficients = coefficientsFor(model, middle, outerMiddle);
+
+  CavityResult result;
+  for (int round = 0; round < kMostRounds; ++round) {
+    result.rounds = round + 1;
+    addMarks(solid, tooThin(task.field, bounds));
+    model.inner = bounds;
+    keepOrdered(model.inner);
+
+    const Stopwatch optimization;
+    result.cavity = cavitySurface(offsetSurfaces(model, coefficients).inner, task.faces, solid);
+    solid = result.cavity.solid;
+    model.innerFaces = result.cavity.faces;
+    const OptimizeResult best = minimize(
+        [&](const Vector& x) {
+          return evaluate(model, task.goal, task.weights, task.solidVolume, x);
+        },
+        coefficients);
+    coefficients = best.x;
+    result.evaluations += best.evaluations;
+    result.stopReason = best.stopReason;
+    OffsetSurfaces surfaces = offsetSurfaces(model, coefficients);
+    result.secondsOptimization += optimization.seconds();
+
+    const Stopwatch inspection;
+    result.inner = task.deliverable(surfaces.inner);
+    result.outer = task.outer ? task.deliverable(surfaces.outer) : task.vertices;
+    result.innerOffsets = std::move(surfaces.innerOffsets);
+    result.outerOffsets = std::move(surfaces.outerOffsets);
+    result.inspection =
+        inspect(result.inner, result.cavity.faces, result.outer, task.faces, task.wall);
+    result.secondsInspection += inspection.seconds();
+    progress(1.0 - 1.0 / (2.0 + round));
+    if (result.inspection.isClean()) return result;
+    tighten(task, result, neighbours, bounds, solid, round < kPatience);
+  }
+  result.cavity.faces.resize(0, 3);
+  result.stopReason = "no cavity passes inspection";
+  return result;
+}
+
+} // namespace massprops

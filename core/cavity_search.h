@@ -1,0 +1,54 @@
+// Optimise, inspect, tighten the bounds where something is wrong, and go on.
+#pragma once
+
+#include "core/cavity.h"
+#include "core/goals.h"
+#include "core/inspection.h"
+#include "core/offset_problem.h"
+#include "core/types.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace massprops {
+
+struct CavityTask {
+  const Points& vertices; ///< working frame
+  const Faces& faces;
+  const OffsetField& field;
+  const HarmonicBasis& basis;
+  const SparseMatrix& L;
+  const Vector& mass; ///< lumped, total 1
+  const Goal& goal;
+  Weights weights = {};
+  double solidVolume = 0.0;
+  double fillDensity = 0.0; ///< as a multiple of the material's density
+  double wall = 0.0;        ///< working length
+  OffsetBounds inner = {};
+  std::optional<OffsetBounds> outer = {};
+  /// Rounds working positions to those that can be delivered, still in the working frame.
+  std::function<Points(const Points&)> deliverable = {};
+};
+
+struct CavityResult {
+  /// Delivered positions in the working frame, n×3 each.
+  Points inner, outer;
+  CavitySurface cavity; ///< no faces: nothing can be hollowed
+  Vector innerOffsets, outerOffsets;
+  Inspection inspection;
+  int evaluations = 0;
+  int rounds = 0;
+  std::string stopReason;
+  double secondsOptimization = 0.0;
+  double secondsInspection = 0.0;
+};
+
+/// The cavity that serves the goal best among those that pass inspection. Where a cavity crosses
+/// itself or comes too near to the outer surface the bounds close in, and what is left without room
+/// becomes solid; after a bounded number of rounds all that still fails becomes solid, so that
+/// what is returned is clean or empty.
+/// `progress`: called with the share of the work that is done, 0…1.
+CavityResult searchCavity(const CavityTask& task, const std::function<void(double)>& progress);
+
+} // namespace massprops

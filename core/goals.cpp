@@ -1,0 +1,16 @@
+#include "core/goals.h"
+
+#include <algorithm>
+
+namespace massprops {
+
+double largestViolation(const Goal& goal, const Moments& massMoments) {
+  double largest = 0.0;
+  for (const double e : goal.equalities(massMoments).values) {
+    largest = std::max(largest, std::abs(e));
+  }
+  for (const double g : goal.inequalities(massMoments).values) largest = std::max(largest, g);
+  return largest;
+}
+
+} // namespace massprops

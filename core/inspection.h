@@ -1,0 +1,30 @@
+// What is wrong with a cavity, vertex by vertex, measured on the triangles to be delivered.
+#pragma once
+
+#include "core/types.h"
+
+#include <vector>
+
+namespace massprops {
+
+struct Inspection {
+  /// Distance from the outer surface, see `surfaceDistances`; n entries.
+  Vector wall;
+  double leastWall = 0.0; ///< infinity when there is no cavity
+  /// Vertices of faces that cross another face, or of a component that is not inside of the outer
+  /// surface, is turned inside out or lies in another component; ascending.
+  std::vector<int> crossing;
+  /// Vertices whose wall is too thin by more than 0.5 %, ascending.
+  std::vector<int> thin;
+  int components = 0;
+
+  bool isClean() const { return crossing.empty() && thin.empty(); }
+};
+
+/// Exact predicates for crossings and containment, double precision for distances.
+/// `inner`, `outer`: vertex positions (inner ones outward oriented as a body of its own);
+/// `wall`: wanted distance, same unit.
+Inspection inspect(const Points& inner, const Faces& innerFaces, const Points& outer,
+                   const Faces& outerFaces, double wall);
+
+} // namespace massprops

@@ -1,0 +1,29 @@
+// The ten integrals over a closed surface's inside, and how they change when its vertices move.
+#pragma once
+
+#include "core/types.h"
+
+namespace massprops {
+
+/// ∫dV of (1, x, y, z, xx, yy, zz, xy, yz, zx); units: length³, length⁴ (3 of them), length⁵ (6).
+using Moments = Eigen::Matrix<double, 10, 1>;
+
+/// n×10: row i is the rate of the ten moments while vertex i moves with unit speed along its
+/// direction and all others rest.
+using MomentRates = Eigen::Matrix<double, Eigen::Dynamic, 10, Eigen::RowMajor>;
+
+/// Positive volume for outward orientation. The surface must be closed; the origin should be near
+/// it, for the integrals cancel far away. [TononTet, docs/math.md "Moments"]
+Moments moments(const Points& vertices, const Faces& faces);
+
+/// Exact derivative of `moments` when vertex i moves along row i of `directions` (n×3, any length).
+/// docs/math.md "Derivative of the moments".
+MomentRates momentRates(const Points& vertices, const Faces& faces, const Points& directions);
+
+/// Moments of the same body moved by `shift`.
+Moments translated(const Moments& moments, const Vec3& shift);
+
+/// The 3×3 matrix ∫ x xᵀ dV in the last six entries.
+Mat3 secondMoment(const Moments& moments);
+
+} // namespace massprops

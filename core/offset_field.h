@@ -1,0 +1,28 @@
+// Along which line and how far every point of the surface may move inwards.
+#pragma once
+
+#include "core/laplacian.h"
+#include "core/types.h"
+
+namespace massprops {
+
+struct OffsetField {
+  /// n×3 unit outward directions d_i: the inner surface is x_i − δ_i d_i, the outer x_i + ε_i d_i.
+  Points directions;
+  /// n lengths r_i > 0: the farthest sensible inward offset, at the skeleton or half-way through
+  /// the body along d_i, whichever is nearer.
+  Vector reach;
+  /// n entries in (−1, 1]: least n_f·d_i over the faces f at vertex i. Not positive: no direction
+  /// moves all faces at that vertex inwards.
+  Vector clearance;
+};
+
+/// Makes the raw skeleton correspondence fit for offsetting (docs/math.md "Offset directions"):
+/// 1. The skeleton points are smoothed over the surface, (M + t²L) s' = M s.
+/// 2. Directions outside of the cone of the faces around their vertex are turned into it.
+/// 3. The reach ends half-way through the body and varies no faster than the surface does.
+/// `skeleton`: n×3. `diffusionLength` t: same unit as the vertices, > 0.
+OffsetField offsetField(const Points& vertices, const Faces& faces, const Points& skeleton,
+                        const SparseMatrix& L, const Vector& mass, double diffusionLength);
+
+} // namespace massprops

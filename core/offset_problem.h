@@ -1,0 +1,56 @@
+// The optimisation problem: from basis coefficients to objective and constraints, with derivatives.
+#pragma once
+
+#include "core/bounds.h"
+#include "core/goals.h"
+#include "core/harmonics.h"
+#include "core/optimize.h"
+
+#include <optional>
+
+namespace massprops {
+
+/// All that does not change while the coefficients do. Working frame throughout.
+struct OffsetModel {
+  const Points& vertices;     ///< n×3, of the input surface
+  const Faces& faces;         ///< of the outer surface
+  const Points& directions;   ///< n×3, unit, outwards
+  const HarmonicBasis& basis; ///< n×k
+  const SparseMatrix& L;      ///< n×n cotangent Laplacian
+  const Vector& mass;         ///< n lumped masses of total 1
+  OffsetBounds inner;
+  std::optional<OffsetBounds> outer; ///< empty: the outer surface stays
+  Faces innerFaces;                  ///< of the cavity, outward, over the same vertices
+  double fillDensity = 0.0;          ///< as a multiple of the material's density
+};
+
+/// The two surfaces that a set of coefficients stands for.
+struct OffsetSurfaces {
+  Points inner, outer;              ///< n×3
+  Vector innerOffsets, innerSlopes; ///< δ = φ(Hα) and φ'
+  Vector outerOffsets, outerSlopes; ///< ε = φ(Hβ) and φ'; empty when the outer surface stays
+};
+
+/// `coefficients`: α (k), followed by β (k) when the outer surface moves.
+OffsetSurfaces offsetSurfaces(const OffsetModel& model, const Vector& coefficients);
+
+/// Mass moments of the shell, the material's density being 1.
+Moments massMoments(const OffsetModel& model, const OffsetSurfaces& surfaces);
+
+/// Objective terms 1–6 and the goal's constraints at `coefficients`; docs/math.md "Objective".
+/// `solidVolume`: of the input.
+Evaluation evaluate(const OffsetModel& model, const Goal& goal, const Weights& weights,
+                    double solidVolume, const Vector& coefficients);
+
+/// The same objective of bodies that are given by their moments and offsets, for reports.
+/// `volumeShare`: material over volume of the solid; `innerOffsets`, `outerOffsets`: n entries, or
+/// empty where that surface does not move.
+double objectiveValue(const Goal& goal, const Weights& weights, const Moments& massMoments,
+                      double volumeShare, const SparseMatrix& L, const Vector& innerOffsets,
+                      const Vector& mass, const Vector& outerOffsets);
+
+/// Coefficients whose fields come nearest, in the mean square, to the wanted ones Hα ≈ inner and
+/// Hβ ≈ outer.
+Vector coefficientsFor(const OffsetModel& model, const Vector& inner, const Vector& outer);
+
+} // namespace massprops

@@ -1,0 +1,174 @@
+#include "core/optimize.h"
+
+#include <nlopt.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace massprops {
+namespace {
+
+/// SLSQP's line search starts with a step as long as the gradient: about ten times the unit of the
+/// variables' useful range was seen to need the fewest evaluations.
+constexpr double kGradientNorm = 10.0;
+
+double violationOf(const Evaluation& e) {
+  double violation = 0.0;
+  if (e.equalities.size() > 0) violation = e.equalities.cwiseAbs().maxCoeff();
+  if (e.inequalities.size() > 0) violation = std::max(violation, e.inequalities.maxCoeff());
+  return violation;
+}
+
+double scaleFor(double gradientNorm, double wanted) {
+  return gradientNorm > 0.0 && std::isfinite(gradientNorm) ? wanted / gradientNorm : 1.0;
+}
+
+/// NLopt asks for objective and constraints one after the other at the same point.
+class ScaledProblem {
+public:
+  ScaledProblem(const Problem& problem, const Vector& start, const OptimizeOptions& options)
+      : problem_(problem), options_(options) {
+    const Evaluation& e = at(std::vector<double>(start.data(), start.data() + start.size()));
+    objectiveScale_ = scaleFor(e.objectiveGradient.norm(), kGradientNorm);
+    equalityScales_.resize(e.equalities.size());
+    for (Eigen::Index i = 0; i < e.equalities.size(); ++i) {
+      equalityScales_[i] = scaleFor(e.equalityJacobian.row(i).norm(), 1.0);
+    }
+    inequalityScales_.resize(e.inequalities.size());
+    for (Eigen::Index i = 0; i < e.inequalities.size(); ++i) {
+      inequalityScales_[i] = scaleFor(e.inequalityJacobian.row(i).norm(), 1.0);
+    }
+  }
+
+  const Evaluation& at(const std::vector<double>& x) {
+    if (x != point_) {
+      point_ = x;
+      const Vector v = Eigen::Map<const Vector>(x.data(), static_cast<Eigen::Index>(x.size()));
+      evaluation_ = problem_(v);
+      ++best_.evaluations;
+      const double violation = std::max(0.0, violationOf(evaluation_) - options_.feasibility);
+      if (violation < best_.violation ||
+          (violation == best_.violation && evaluation_.objective < best_.objective)) {
+        best_.x = v;
+        best_.violation = violation;
+        best_.objective = evaluation_.objective;
+        bestEvaluationViolation_ = violationOf(evaluation_);
+      }
+    }
+    return evaluation_;
+  }
+
+  OptimizeResult best() const {
+    OptimizeResult result = best_;
+    result.violation = std::max(0.0, bestEvaluationViolation_);
+    return result;
+  }
+
+  static double objective(const std::vector<double>& x, std::vector<double>& gradient, void* self) {
+    auto& p = *static_cast<ScaledProblem*>(self);
+    const Evaluation& e = p.at(x);
+    for (std::size_t i = 0; i < gradient.size(); ++i) {
+      gradient[i] = p.objectiveScale_ * e.objectiveGradient[static_cast<Eigen::Index>(i)];
+    }
+    return p.objectiveScale_ * e.objective;
+  }
+
+  static void equalities(unsigned m, double* result, unsigned n, const double* x, double* gradient,
+                         void* self) {
+    auto& p = *static_cast<ScaledProblem*>(self);
+    const Evaluation& e = p.at(std::vector<double>(x, x + n));
+    constraints(m, n, e.equalities, e.equalityJacobian, p.equalityScales_, result, gradient);
+  }
+
+  static void inequalities(unsigned m, double* result, unsigned n, const double* x,
+                           double* gradient, void* self) {
+    auto& p = *static_cast<ScaledProblem*>(self);
+    const Evaluation& e = p.at(std::vector<double>(x, x + n));
+    constraints(m, n, e.inequalities, e.inequalityJacobian, p.inequalityScales_, result, gradient);
+  }
+
+  Eigen::Index equalityCount() const { return equalityScales_.size(); }
+  Eigen::Index inequalityCount() const { return inequalityScales_.size(); }
+  std::vector<double> tolerances(const Vector& scales) const {
+    std::vector<double> result;
+    for (const double s : scales) result.push_back(s * options_.feasibility);
+    return result;
+  }
+  const Vector& equalityScales() const { return equalityScales_; }
+  const Vector& inequalityScales() const { return inequalityScales_; }
+
+private:
+  static void constraints(unsigned m, unsigned n, const Vector& values, const Matrix& jacobian,
+                          const Vector& scales, double* result, double* gradient) {
+    for (unsigned i = 0; i < m; ++i) {
+      result[i] = scales[i] * values[i];
+      if (gradient == nullptr) continue;
+      for (unsigned j = 0; j < n; ++j) gradient[i * n + j] = scales[i] * jacobian(i, j);
+    }
+  }
+
+  const Problem& problem_;
+  OptimizeOptions options_;
+  std::vector<double> point_;
+  Evaluation evaluation_;
+  OptimizeResult best_{
+      {}, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), 0, {}};
+  double bestEvaluationViolation_ = 0.0;
+  double objectiveScale_ = 1.0;
+  Vector equalityScales_;
+  Vector inequalityScales_;
+};
+
+std::string describe(nlopt::result result) {
+  switch (result) {
+  case nlopt::FTOL_REACHED:
+    return "objective converged";
+  case nlopt::XTOL_REACHED:
+    return "coefficients converged";
+  case nlopt::MAXEVAL_REACHED:
+    return "evaluation limit";
+  default:
+    return "converged";
+  }
+}
+
+} // namespace
+
+OptimizeResult minimize(const Problem& problem, const Vector& start,
+                        const OptimizeOptions& options) {
+  ScaledProblem scaled(problem, start, options);
+  nlopt::opt solver(nlopt::LD_SLSQP, static_cast<unsigned>(start.size()));
+  solver.set_min_objective(ScaledProblem::objective, &scaled);
+  if (scaled.equalityCount() > 0) {
+    solver.add_equality_mconstraint(ScaledProblem::equalities, &scaled,
+                                    scaled.tolerances(scaled.equalityScales()));
+  }
+  if (scaled.inequalityCount() > 0) {
+    solver.add_inequality_mconstraint(ScaledProblem::inequalities, &scaled,
+                                      scaled.tolerances(scaled.inequalityScales()));
+  }
+  solver.set_lower_bounds(-options.range);
+  solver.set_upper_bounds(options.range);
+  solver.set_ftol_abs(options.objectiveTolerance);
+  solver.set_maxeval(options.maxEvaluations);
+  std::vector<double> x(start.data(), start.data() + start.size());
+  for (double& value : x) value = std::clamp(value, -options.range, options.range);
+  double objective = 0.0;
+  std::string stopReason;
+  try {
+    stopReason = describe(solver.optimize(x, objective));
+  } catch (const nlopt::roundoff_limited&) {
+    stopReason = "converged to rounding";
+  } catch (const std::runtime_error&) {
+    // SLSQP gives up on a search direction it cannot improve along, which also happens at an
+    // optimum; the best point seen stands, and its constraints are checked by the caller.
+    stopReason = "no further descent";
+  }
+  OptimizeResult result = scaled.best();
+  result.stopReason = stopReason;
+  return result;
+}
+
+} // namespace massprops

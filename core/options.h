@@ -1,0 +1,50 @@
+// What the user asks for: one field per parameter of the dialog.
+#pragma once
+
+#include "core/types.h"
+
+#include <functional>
+#include <optional>
+
+namespace massprops {
+
+enum class GoalKind { Stand, Spin };
+
+/// In the order of the dialog.
+enum class UpAxis { PlusZ, PlusY, PlusX, MinusZ, MinusY, MinusX };
+
+/// Dimensionless factors of the objective's terms (docs/math.md, "Objective"). The defaults give
+/// the goal's published objective.
+struct Weights {
+  double volume = 0.0;       ///< opt_weight_1: material volume / volume of the solid
+  double centerOfMass = 1.0; ///< opt_weight_2: the goal's terms in the centre of mass
+  double inertia = 1.0;      ///< opt_weight_3: the goal's terms in the moments of inertia
+  double smoothness = 0.0;   ///< opt_weight_4: Dirichlet energy of the offsets
+  double constraints = 1.0;  ///< opt_weight_5: squared violation; 0 leaves the constraints out
+  double outer = 0.0;        ///< opt_weight_6: mean squared displacement of the outer surface
+};
+
+struct Options {
+  GoalKind goal = GoalKind::Stand;
+  /// k, the number of harmonic basis functions; 1 ≤ k < number of vertices.
+  int basisSize = 36;
+  /// Half axes of the elliptic contact area along the two horizontal axes that follow the up axis
+  /// cyclically (x, y for +Z); length. Empty: taken from the model's ground contacts.
+  std::optional<double> radiusX, radiusY;
+  /// Minimum wall, perpendicular to the surface; length. Empty: 1 % of the diagonal.
+  std::optional<double> innerLowerBound;
+  /// Greatest offset as a fraction of the distance to the skeleton, in (0, 1).
+  double innerUpperBound = 0.9;
+  /// Range of the outward displacement of the outer surface; lengths. Both 0: it stays.
+  double outerLowerBound = 0.0;
+  double outerUpperBound = 0.0;
+  Weights weights;
+  UpAxis upAxis = UpAxis::PlusZ;
+  double density = 1.24;    ///< of the material, g/cm³; the default is PLA
+  double fillDensity = 0.0; ///< of what fills the cavity, g/cm³
+  /// Rounds points to what the caller can store (a float mesh, say). What is delivered, checked
+  /// and reported is the rounded surface. Empty: double precision.
+  std::function<Points(const Points&)> representable;
+};
+
+} // namespace massprops

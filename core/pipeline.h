@@ -1,0 +1,34 @@
+// The whole story: a solid model and a goal in, an optimised cavity and its proof out.
+#pragma once
+
+#include "core/options.h"
+#include "core/report.h"
+#include "core/types.h"
+
+#include <functional>
+#include <optional>
+
+namespace massprops {
+
+/// Called from the calling thread with 0 ≤ percent ≤ 100, never decreasing, and a short stage name.
+using Progress = std::function<void(int percent, const char* stage)>;
+
+struct Result {
+  /// Closed surfaces that bound the cavity, normals pointing into the cavity, so that outer and
+  /// inner surface together bound the material. Without vertices and faces when nothing can be
+  /// hollowed. Same coordinates as the input.
+  TriangleMesh inner;
+  /// The moved outer surface, when `Options::outerUpperBound` > 0; as many vertices as the input.
+  std::optional<TriangleMesh> outer;
+  Report report;
+};
+
+/// Finds the cavity that makes `model` reach `options.goal`. [MAB15]
+/// `model`: one closed, manifold, coherently oriented component; any units, any place.
+/// Same input, same options: same output, bit for bit.
+/// \throw InvalidInput when the model is not such a surface or an option is absurd. A goal out of
+/// reach is no error: it is told in the report.
+Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
+                              const Progress& progress = {});
+
+} // namespace massprops

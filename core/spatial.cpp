@@ -1,0 +1,156 @@
+#include "core/spatial.h"
+
+#include <CGAL/AABB_segment_primitive.h>
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Simple_cartesian.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace massprops {
+namespace {
+
+using Kernel = CGAL::Simple_cartesian<double>;
+using Triangles = std::vector<Kernel::Triangle_3>;
+using Segments = std::vector<Kernel::Segment_3>;
+using TrianglePrimitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
+using TriangleTree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, TrianglePrimitive>>;
+using SegmentPrimitive = CGAL::AABB_segment_primitive<Kernel, Segments::const_iterator>;
+using SegmentTree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, SegmentPrimitive>>;
+
+Kernel::Point_3 point(const Points& points, Eigen::Index i) {
+  return {points(i, 0), points(i, 1), points(i, 2)};
+}
+
+Triangles triangles(const Points& vertices, const Faces& faces) {
+  Triangles result;
+  result.reserve(static_cast<std::size_t>(faces.rows()));
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    result.emplace_back(point(vertices, faces(f, 0)), point(vertices, faces(f, 1)),
+                        point(vertices, faces(f, 2)));
+  }
+  return result;
+}
+
+/// Every edge of a closed surface once.
+std::vector<std::pair<int, int>> edges(const Faces& faces) {
+  std::vector<std::pair<int, int>> result;
+  result.reserve(static_cast<std::size_t>(3 * faces.rows() / 2));
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const int from = faces(f, k);
+      const int to = faces(f, (k + 1) % 3);
+      if (from < to) result.emplace_back(from, to);
+    }
+  }
+  return result;
+}
+
+CGAL::Bbox_3 grown(const CGAL::Bbox_3& box, double margin) {
+  return {box.xmin() - margin, box.ymin() - margin, box.zmin() - margin,
+          box.xmax() + margin, box.ymax() + margin, box.zmax() + margin};
+}
+
+} // namespace
+
+struct SurfaceIndex::Tree {
+  Triangles triangles;
+  TriangleTree tree;
+};
+
+SurfaceIndex::SurfaceIndex(const Points& vertices, const Faces& faces)
+    : tree_(std::make_unique<Tree>()) {
+  tree_->triangles = triangles(vertices, faces);
+  tree_->tree.rebuild(tree_->triangles.cbegin(), tree_->triangles.cend());
+  tree_->tree.accelerate_distance_queries();
+}
+
+SurfaceIndex::~SurfaceIndex() = default;
+SurfaceIndex::SurfaceIndex(SurfaceIndex&&) noexcept = default;
+SurfaceIndex& SurfaceIndex::operator=(SurfaceIndex&&) noexcept = default;
+
+Vector SurfaceIndex::chords(const Points& points, const Points& directions) const {
+  Vector result(points.rows());
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const Kernel::Point_3 start = point(points, i);
+    const Kernel::Vector_3 d(directions(i, 0), directions(i, 1), directions(i, 2));
+    const auto containsStart = [&](Triangles::const_iterator triangle) {
+      return triangle->vertex(0) == start || triangle->vertex(1) == start ||
+             triangle->vertex(2) == start;
+    };
+    const auto hit = tree_->tree.first_intersection(Kernel::Ray_3(start, d), containsStart);
+    result[i] = std::numeric_limits<double>::infinity();
+    if (hit) {
+      if (const auto* at = boost::get<Kernel::Point_3>(&hit->first)) {
+        result[i] = std::sqrt(CGAL::squared_distance(start, *at));
+      } else if (const auto* along = boost::get<Kernel::Segment_3>(&hit->first)) {
+        result[i] = std::sqrt(CGAL::squared_distance(start, *along));
+      }
+    }
+  }
+  return result;
+}
+
+SurfaceIndex::Nearest SurfaceIndex::nearest(const Vec3& p) const {
+  const Kernel::Point_3 query(p.x(), p.y(), p.z());
+  const auto closest = tree_->tree.closest_point_and_primitive(query);
+  return {std::sqrt(CGAL::squared_distance(query, closest.first)),
+          static_cast<int>(closest.second - tree_->triangles.cbegin()),
+          {closest.first.x(), closest.first.y(), closest.first.z()}};
+}
+
+Vector surfaceDistances(const Points& vertices, const Faces& faces, const Points& otherVertices,
+                        const Faces& otherFaces, double horizon) {
+  // Two disjoint triangles are nearest at a vertex of one and a point of the other, or at two
+  // edges.
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Vector distance = Vector::Constant(vertices.rows(), kInfinity);
+  if (faces.rows() == 0) return distance;
+  const SurfaceIndex other(otherVertices, otherFaces);
+  for (Eigen::Index corner = 0; corner < faces.size(); ++corner) {
+    double& d = distance[faces.data()[corner]];
+    if (d == kInfinity) d = other.nearest(vertices.row(faces.data()[corner]).transpose()).distance;
+  }
+  const SurfaceIndex own(vertices, faces);
+  for (Eigen::Index v = 0; v < otherVertices.rows(); ++v) {
+    const SurfaceIndex::Nearest nearest = own.nearest(otherVertices.row(v).transpose());
+    for (const int corner : faces.row(nearest.face)) {
+      distance[corner] = std::min(distance[corner], nearest.distance);
+    }
+  }
+
+  Segments segments;
+  for (const auto& [from, to] : edges(otherFaces)) {
+    segments.emplace_back(point(otherVertices, from), point(otherVertices, to));
+  }
+  const SegmentTree tree(segments.cbegin(), segments.cend());
+  double least = distance.minCoeff();
+  std::vector<Segments::const_iterator> near;
+  for (const auto& [from, to] : edges(faces)) {
+    const Kernel::Segment_3 edge(point(vertices, from), point(vertices, to));
+    near.clear();
+    tree.all_intersected_primitives(grown(edge.bbox(), std::max(horizon, least)),
+                                    std::back_inserter(near));
+    for (const auto segment : near) {
+      const double d = std::sqrt(CGAL::squared_distance(edge, *segment));
+      distance[from] = std::min(distance[from], d);
+      distance[to] = std::min(distance[to], d);
+      least = std::min(least, d);
+    }
+  }
+  Vector around = distance;
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    const double face =
+        std::min({distance[faces(f, 0)], distance[faces(f, 1)], distance[faces(f, 2)]});
+    for (const int corner : faces.row(f)) around[corner] = std::min(around[corner], face);
+  }
+  return around;
+}
+
+} // namespace massprops
