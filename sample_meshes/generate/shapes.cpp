@@ -9,6 +9,17 @@
 namespace samples {
 namespace {
 
+/// A chain of round cones through balls given by centre and radius.
+Implicit limb(const std::vector<std::pair<Vec3, double>>& chain) {
+  Implicit solid = roundCone(chain[0].first, chain[0].second, chain[1].first, chain[1].second);
+  for (std::size_t i = 1; i + 1 < chain.size(); ++i) {
+    const auto& [a, radiusA] = chain[i];
+    const auto& [b, radiusB] = chain[i + 1];
+    solid = smoothUnion(solid, roundCone(a, radiusA, b, radiusB), 6);
+  }
+  return solid;
+}
+
 /// A box that stands on a cut-off corner, a little off its balance.
 Sample boxOnCorner() {
   const Vec3 size(60, 50, 40);
@@ -50,20 +61,12 @@ Sample tiltedEllipsoidTop() {
 
 /// A toy dinosaur on two feet whose big head pulls it over.
 Sample toyDinosaur() {
-  const auto limb = [](Implicit solid, std::vector<std::pair<Vec3, double>> chain, double blend) {
-    Implicit part;
-    for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
-      const Implicit bone =
-          roundCone(chain[i].first, chain[i].second, chain[i + 1].first, chain[i + 1].second);
-      part = part ? smoothUnion(part, bone, 6) : bone;
-    }
-    return solid ? smoothUnion(solid, part, blend) : part;
-  };
   Implicit trunk = roundCone(Vec3(-9, 0, 38), 17, Vec3(12, 0, 53), 15);
   trunk = smoothUnion(trunk, ellipsoid(Vec3(5, 0, 42), Vec3(18, 17, 17)), 6);
-  trunk = limb(trunk,
-               {{{-14, 0, 36}, 14}, {{-33, 0, 26}, 9}, {{-50, 0, 23}, 6}, {{-63, 0, 29}, 3.6}}, 10);
-  trunk = limb(trunk, {{{13, 0, 56}, 12}, {{22, 0, 76}, 11}}, 8);
+  trunk = smoothUnion(
+      trunk, limb({{{-14, 0, 36}, 14}, {{-33, 0, 26}, 9}, {{-50, 0, 23}, 6}, {{-63, 0, 29}, 3.6}}),
+      10);
+  trunk = smoothUnion(trunk, roundCone(Vec3(13, 0, 56), 12, Vec3(22, 0, 76), 11), 8);
 
   // An open mouth between the snout and the lower jaw.
   Implicit head = ellipsoid(Vec3(26, 0, 85), Vec3(17, 15, 14));
@@ -72,12 +75,12 @@ Sample toyDinosaur() {
   trunk = smoothUnion(trunk, head, 6);
 
   // The parts that come in pairs, on the side y > 0.
-  Implicit leg = limb({}, {{{-10, 12, 34}, 12}, {{-9, 14, 20}, 9}, {{-15, 14, 8}, 7}}, 6);
+  Implicit leg = limb({{{-10, 12, 34}, 12}, {{-9, 14, 20}, 9}, {{-15, 14, 8}, 7}});
   Implicit foot = roundCone(Vec3(-16, 14, 4.2), 6.5, Vec3(-6, 15, 3.6), 6);
   for (const double side : {-4.8, 0.0, 4.8})
     foot = smoothUnion(foot, ball(Vec3(-0.5 - std::abs(side) / 4, 15 + side, 2.2), 3.9), 5);
   leg = smoothUnion(leg, foot, 5);
-  Implicit arm = limb({}, {{{17, 11, 53}, 6}, {{24, 18, 46}, 4.8}, {{32, 16, 47}, 4.4}}, 4);
+  Implicit arm = limb({{{17, 11, 53}, 6}, {{24, 18, 46}, 4.8}, {{32, 16, 47}, 4.4}});
   for (const double side : {-2.6, 2.6})
     arm = smoothUnion(
         arm, roundCone(Vec3(33, 15.5, 47 + side / 2), 3, Vec3(38, 15, 46.5 + side), 2.3), 3);

@@ -97,7 +97,10 @@ GroundedSurface::GroundedSurface(const MeshingProblem& problem, double spacing)
 
   const auto node = [&](int i, int j, int k) { return (k * n[1] + j) * n[0] + i; };
   const auto position = [&](int index) {
-    return Vec3(lower + spacing * Vec3(index % n[0], (index / n[0]) % n[1], index / (n[0] * n[1])));
+    const int i = index % n[0];
+    const int j = index / n[0] % n[1];
+    const int k = index / n[0] / n[1];
+    return Vec3(lower + spacing * Vec3(i, j, k));
   };
   std::vector<double> value(static_cast<std::size_t>(n[0] * n[1] * n[2]));
   for (std::size_t i = 0; i < value.size(); ++i)
