@@ -1,0 +1,125 @@
+"""What happens to the document: new layers, the untouched input, transformations."""
+import unittest
+
+import numpy as np
+
+import measure
+from host import (SAMPLES, HostTest, bounds_a_volume, changed_script, layers_of, meshlabserver,
+                  read_ply, report_in, script_of, shutil, write_ply, write_project)
+
+TOP = SAMPLES / "tilted_ellipsoid_top.ply"
+SPIN = script_of("tilted_ellipsoid_top")
+
+
+def place(matrix, vertices):
+    return vertices @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+class LayersTest(HostTest):
+    def project(self, mesh_or_project, *scripts):
+        """Runs scripts on a copy of a mesh or on a project; layers that the saved project has."""
+        saved = self.folder / "saved.mlp"
+        source = ["-p" if mesh_or_project.suffix == ".mlp" else "-i", mesh_or_project]
+        for script in scripts:
+            source += ["-s", script]
+        status, log = meshlabserver(*source, "-w", saved)
+        self.assertEqual(status, 0, log)
+        return layers_of(saved), report_in(log)
+
+    def mesh(self, name="model.ply"):
+        return shutil.copy(TOP, self.folder / name)
+
+    def test_the_result_is_one_new_last_layer_named_after_the_input(self):
+        layers, _ = self.project(self.mesh(), SPIN)
+        self.assertEqual([name for name, _ in layers],
+                         ["model_out.ply", "model.plyinneroffsetsurface_out.ply"])
+
+    def test_a_moved_outer_surface_is_a_layer_before_the_inner_one(self):
+        script = changed_script(SPIN, self.folder / "s.mlx", outer_upper_bound=1)
+        layers, _ = self.project(self.mesh(), script)
+        names = [name for name, _ in layers]
+        self.assertEqual(names, ["model_out.ply", "model.plyouteroffsetsurface_out.ply",
+                                 "model.plyinneroffsetsurface_out.ply"])
+        self.assertEqual(bounds_a_volume(self.folder / names[1], self.folder / names[2]), "")
+
+    def test_the_input_layer_is_saved_as_if_the_filter_had_not_run(self):
+        (before, *_), _ = self.project(self.mesh())
+        untouched = (self.folder / before[0]).read_bytes()
+        (after, *_), _ = self.project(self.mesh(), SPIN)
+        self.assertEqual((self.folder / after[0]).read_bytes(), untouched)
+        np.testing.assert_array_equal(after[1], before[1])
+
+    def test_two_runs_give_the_same_bytes(self):
+        surfaces = []
+        for name in ("a", "b"):
+            inner = self.folder / f"{name}.ply"
+            status, log = meshlabserver("-i", TOP, "-o", inner, "-l", "x", "-s", SPIN)
+            self.assertEqual(status, 0, log)
+            surfaces.append(inner.read_bytes())
+        self.assertEqual(*surfaces)
+
+    def test_stages_are_announced(self):
+        status, log = meshlabserver("-i", TOP, "-s", SPIN)
+        self.assertEqual(status, 0)
+        for stage in ("skeleton", "basis", "ptimi"):
+            self.assertRegex(log, f"(?m)^[A-Z][A-Za-z ]*{stage}[a-z]*$|^{stage.title()}")
+
+    def placed(self, matrix):
+        """Runs on a layer with that matrix; checks that the new layer shares it, that both bound a
+        volume in the layer's coordinates, and that the report speaks about the world."""
+        mesh = self.mesh()
+        project = write_project(self.folder / "placed.mlp", mesh, matrix)
+        layers, report = self.project(project, SPIN)
+        (outer_name, outer_matrix), (inner_name, inner_matrix) = layers
+        np.testing.assert_allclose(outer_matrix, matrix, atol=1e-5)
+        np.testing.assert_array_equal(inner_matrix, outer_matrix)
+        files = [self.folder / outer_name, self.folder / inner_name]
+        self.assertEqual(bounds_a_volume(*files), "")
+        surfaces = [read_ply(file) for file in files]
+        if np.linalg.det(matrix) < 0:
+            surfaces = [(v, f[:, ::-1]) for v, f in surfaces]
+        world = [(place(outer_matrix, v), f) for v, f in surfaces]
+        reference = world[0][0].mean(axis=0)
+        mass, centre, inertia = measure.hollow_body(*world, 1.24, reference=reference)
+        size = np.linalg.norm(np.ptp(world[0][0], axis=0))
+        # The project file keeps about seven digits of the matrix.
+        self.assertAlmostEqual(report["mass_after"] / mass, 1.0, delta=1e-5)
+        np.testing.assert_allclose(report["center_of_mass_after"], centre, atol=1e-5 * size)
+        np.testing.assert_allclose(report["inertia_tensor_after"], inertia,
+                                   atol=1e-5 * np.trace(inertia))
+        return report
+
+    def test_a_moved_turned_and_scaled_layer_is_optimised_where_it_is(self):
+        angle = 0.3
+        matrix = np.eye(4)
+        matrix[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+        matrix[:3, :3] *= 1.5
+        matrix[:3, 3] = [40, -25, 10]
+        self.assertTrue(self.placed(matrix)["spins_after"])
+
+    def test_a_mirrored_layer_keeps_its_orientation(self):
+        self.assertTrue(self.placed(np.diag([-1.0, 1.0, 1.0, 1.0]))["spins_after"])
+
+    def test_the_up_axis_is_an_axis_of_the_world(self):
+        """Layer lies on its side, its matrix puts it upright."""
+        vertices, faces = read_ply(TOP)
+        mesh = write_ply(self.folder / "lying.ply", vertices[:, [2, 0, 1]], faces)
+        matrix = np.zeros((4, 4))
+        matrix[[2, 0, 1, 3], [0, 1, 2, 3]] = 1
+        project = write_project(self.folder / "placed.mlp", mesh, matrix)
+        _, lying = self.project(project, SPIN)
+        _, upright = self.project(self.mesh(), SPIN)
+        self.assertAlmostEqual(lying["axis_tilt_before"], upright["axis_tilt_before"], delta=1e-4)
+
+    def test_a_singular_matrix_is_refused(self):
+        project = write_project(self.folder / "flat.mlp", self.mesh(),
+                                np.diag([1.0, 1.0, 0.0, 1.0]))
+        saved = self.folder / "saved.mlp"
+        status, log = meshlabserver("-p", project, "-s", SPIN, "-w", saved)
+        self.assertNotEqual(status, 0)
+        self.assertIn("Matrix: Reset Current Matrix", log)
+        self.assertFalse(saved.exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

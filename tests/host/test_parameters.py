@@ -1,0 +1,197 @@
+"""Each parameter acts as its tooltip says, seen in the files and reports of real runs."""
+import unittest
+
+import numpy as np
+
+import measure
+from host import (SAMPLES, HostTest, changed_script, layers_of, meshlabserver, read_ply, report_in,
+                  script_of, shutil, write_ply)
+
+TOP = SAMPLES / "tilted_ellipsoid_top.ply"
+SPIN = script_of("tilted_ellipsoid_top")
+STAND_GOAL, SPIN_GOAL = 0, 1
+
+
+def cotangent_energy(vertices, faces, values):
+    """Dirichlet energy of a function that is linear on each triangle."""
+    energy = 0.0
+    a, b, c = vertices[faces].transpose(1, 0, 2)
+    area2 = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    for k in range(3):
+        i, j, o = faces[:, k], faces[:, (k + 1) % 3], faces[:, (k + 2) % 3]
+        u, v = vertices[i] - vertices[o], vertices[j] - vertices[o]
+        energy += ((u * v).sum(1) / area2 * (values[i] - values[j]) ** 2).sum() / 2
+    return energy
+
+
+class ParametersTest(HostTest):
+    @classmethod
+    def setUpClass(cls):
+        cls.outer = read_ply(TOP)
+        cls.diagonal = np.linalg.norm(np.ptp(cls.outer[0], axis=0))
+
+    def top(self, **values):
+        return self.run_filter(TOP, SPIN, **values)
+
+    def both_surfaces(self, **values):
+        """Report, moved outer surface and inner surface."""
+        mesh = shutil.copy(TOP, self.folder / "model.ply")
+        script = changed_script(SPIN, self.folder / "s.mlx", **values)
+        saved = self.folder / "saved.mlp"
+        status, log = meshlabserver("-i", mesh, "-w", saved, "-s", script)
+        self.assertEqual(status, 0, log)
+        layers = layers_of(saved)
+        self.assertEqual(len(layers), 3)
+        return report_in(log), *(read_ply(self.folder / name) for name, _ in layers[1:])
+
+    def test_goal(self):
+        stand, _ = self.top(goal=STAND_GOAL)
+        spin, _ = self.top(goal=SPIN_GOAL)
+        self.assertIn("tip_angle_after", stand)
+        self.assertNotIn("axis_tilt_after", stand)
+        self.assertIn("axis_tilt_after", spin)
+        self.assertNotIn("tip_angle_after", spin)
+        self.assertLess(stand["center_of_mass_after"][2], spin["center_of_mass_after"][2])
+
+    def test_basis_k_more_functions_shape_finer_detail(self):
+        _, (few, faces) = self.top(basis_k=6)
+        _, (many, _) = self.top(basis_k=60)
+        self.assertEqual(len(few), len(many))
+
+        def roughness(inner):
+            offset = np.linalg.norm(inner - self.outer[0], axis=1)
+            return cotangent_energy(*self.outer, offset) / np.var(offset)
+
+        self.assertGreater(roughness(many), 1.2 * roughness(few))
+
+    def test_radii_make_the_contact_area_an_ellipse(self):
+        report, _ = self.top(goal=STAND_GOAL, radius_x=9, radius_y=4)
+        centre = report["center_of_mass_before"]
+        ground = np.append(measure.polygon_centroid(measure.contact_polygon(self.outer[0])),
+                           self.outer[0][:, 2].min())
+        x, y, height = centre - ground
+        angle = np.linspace(0, 2 * np.pi, 200001)
+        distance = np.hypot(9 * np.cos(angle), 4 * np.sin(angle)) - x * np.cos(angle) - \
+            y * np.sin(angle)
+        tip = np.degrees(np.arctan2(distance, height).min())
+        self.assertAlmostEqual(report["tip_angle_before"], tip, delta=1e-4)
+        turned, _ = self.top(goal=STAND_GOAL, radius_x=4, radius_y=9)
+        self.assertGreater(abs(turned["tip_angle_before"] - tip), 0.01)
+
+    def test_inner_lower_bound_is_the_least_wall(self):
+        thin, _ = self.top(inner_lower_bound=1)
+        thick, inner = self.top(inner_lower_bound=3)
+        wall = measure.surface_distance(self.outer, inner)
+        self.assertGreater(wall, 3 * 0.99)
+        self.assertGreater(thick["mass_after"], thin["mass_after"])
+        self.assertLess(thin["min_wall"], 3)
+
+    def test_inner_upper_bound_limits_the_depth(self):
+        _, (near, _) = self.top(inner_upper_bound=0.6)
+        _, (far, _) = self.top(inner_upper_bound=0.9)
+
+        def depth(inner):
+            return max(np.linalg.norm(self.outer[0] - y, axis=1).min() for y in inner)
+
+        self.assertGreater(depth(far), 1.2 * depth(near))
+
+    def test_outer_bounds_are_the_range_of_the_displacement(self):
+        _, (moved, faces), _ = self.both_surfaces(outer_lower_bound=0.3, outer_upper_bound=0.9)
+        np.testing.assert_array_equal(faces, self.outer[1])
+        displacement = np.linalg.norm(moved - self.outer[0], axis=1)
+        ground = self.outer[0][:, 2].min()
+        # Near the ground the surface moves less, so as not to go through it.
+        free = self.outer[0][:, 2] > ground + 0.9
+        # Coordinates are stored in single precision.
+        self.assertGreater(displacement[free].min(), 0.3 - 1e-4)
+        self.assertLess(displacement.max(), 0.9 + 1e-4)
+        self.assertGreater(np.ptp(displacement[free]), 0.05)
+        self.assertGreater(moved[:, 2].min(), ground - 1e-4)
+
+    def test_opt_weight_1_saves_material(self):
+        without, _ = self.top(opt_weight_1=0)
+        heavy, _ = self.top(opt_weight_1=100)
+        self.assertLess(heavy["volume_after"], 0.98 * without["volume_after"])
+
+    def test_opt_weight_2_lowers_the_centre_of_mass(self):
+        without, _ = self.top(opt_weight_2=0)
+        heavy, _ = self.top(opt_weight_2=100)
+
+        def height(report):  # the term itself: (m/m_solid) c_z
+            return (report["mass_after"] / report["mass_before"]
+                    * (report["center_of_mass_after"][2] - self.outer[0][:, 2].min()))
+
+        self.assertLess(height(heavy), 0.98 * height(without))
+
+    def test_opt_weight_3_turns_the_moments_of_inertia(self):
+        without, _ = self.top(opt_weight_3=0)
+        heavy, _ = self.top(opt_weight_3=100)
+
+        def ratio(report):
+            return report["moment_ratio_a_after"]**-2 + report["moment_ratio_b_after"]**-2
+
+        self.assertLess(ratio(heavy), ratio(without))
+
+    def test_opt_weight_4_smooths_the_offsets(self):
+        _, (free, _) = self.top(opt_weight_4=0)
+        _, (smooth, _) = self.top(opt_weight_4=10)
+
+        def energy(inner):
+            return cotangent_energy(*self.outer, np.linalg.norm(inner - self.outer[0], axis=1))
+
+        self.assertLess(energy(smooth), 0.9 * energy(free))
+
+    def test_opt_weight_5_keeps_the_constraints(self):
+        without, _ = self.top(opt_weight_5=0)
+        kept, _ = self.top(opt_weight_5=1)
+        self.assertGreater(without["max_constraint_violation"],
+                           100 * kept["max_constraint_violation"])
+        self.assertFalse(without["solved"])
+
+    def test_opt_weight_6_holds_the_outer_surface(self):
+        _, (free, _), _ = self.both_surfaces(outer_upper_bound=2, opt_weight_6=0)
+        _, (held, _), _ = self.both_surfaces(outer_upper_bound=2, opt_weight_6=10000)
+
+        def mean_square(outer):
+            return ((outer - self.outer[0])**2).sum(axis=1).mean()
+
+        self.assertLess(mean_square(held), 0.7 * mean_square(free))
+
+    def test_up_axis_each_entry_turns_the_model_upright(self):
+        """The top, turned so that an axis points up, behaves as the upright one."""
+        upright, _ = self.top()
+        turns = {0: np.eye(3),                                         # +Z
+                 1: np.array([[0, 1, 0], [0, 0, 1], [1, 0, 0]]),       # +Y
+                 2: np.array([[0, 0, 1], [1, 0, 0], [0, 1, 0]])}       # +X
+        vertices, faces = self.outer
+        for axis in range(6):
+            turn = turns[axis % 3]
+            if axis >= 3:  # half a turn about a horizontal axis: up becomes down
+                turn = turn @ np.diag([1, -1, -1])
+            self.assertAlmostEqual(np.linalg.det(turn), 1)
+            with self.subTest(axis):
+                mesh = write_ply(self.folder / "turned.ply", vertices @ turn.T, faces)
+                report, _ = self.run_filter(mesh, SPIN, up_axis=axis)
+                for key in ("axis_offset_before", "axis_tilt_before", "moment_ratio_a_before"):
+                    self.assertAlmostEqual(report[key], upright[key], delta=1e-4)
+                self.assertTrue(report["spins_after"])
+
+    def test_density_scales_masses_and_nothing_else(self):
+        single, (inner, _) = self.top(density=1.24)
+        double, (same, _) = self.top(density=2.48)
+        self.assertAlmostEqual(double["mass_after"] / single["mass_after"], 2, delta=1e-4)
+        self.assertLess(np.abs(inner - same).max(), 1e-3 * self.diagonal)
+
+    def test_fill_density_fills_the_cavity(self):
+        report, inner = self.top(fill_density=0.8)
+        mass, centre, inertia = measure.hollow_body(self.outer, inner, 1.24, 0.8)
+        self.assertAlmostEqual(report["mass_after"] / mass, 1, delta=1e-6)
+        np.testing.assert_allclose(report["center_of_mass_after"], centre, atol=1e-5)
+        np.testing.assert_allclose(report["inertia_tensor_after"], inertia,
+                                   atol=1e-5 * np.trace(inertia))
+        empty, _ = self.top(fill_density=0)
+        self.assertGreater(report["mass_after"], 1.05 * empty["mass_after"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,174 @@
+"""Inputs that cannot work: a sentence in the log, an exit status, and nothing written."""
+import pathlib
+import re
+import tempfile
+import unittest
+
+import numpy as np
+
+from host import HostTest, changed_script, meshlabserver, script_of, write_ply
+
+SPIN = script_of("tilted_ellipsoid_top")
+
+
+def cube(n=4, size=10.0):
+    """A cube of n×n squares a side, each cut into two triangles."""
+    points, faces = [], []
+    ticks = range(n + 1)
+    index = {}
+
+    def at(p):
+        if p not in index:
+            index[p] = len(points)
+            points.append(np.array(p) * size / n)
+        return index[p]
+
+    for axis in range(3):
+        for side in (0, n):
+            def corner(i, j):
+                p = [0, 0, 0]
+                p[axis], p[(axis + 1) % 3], p[(axis + 2) % 3] = side, i, j
+                return at(tuple(p))
+            for i in ticks[:-1]:
+                for j in ticks[:-1]:
+                    a, b = corner(i, j), corner(i + 1, j)
+                    c, d = corner(i + 1, j + 1), corner(i, j + 1)
+                    pair = [(a, b, c), (a, c, d)]
+                    faces += pair if side else [f[::-1] for f in pair]
+    return np.array(points), np.array(faces)
+
+
+class RefusalsTest(HostTest):
+    def refuse(self, mesh, sentence, filters=(), **values):
+        """`mesh`: (vertices, faces), a file, or None for an empty document."""
+        script = changed_script(SPIN, self.folder / "s.mlx", **values)
+        inner = self.folder / "inner.ply"
+        arguments = []
+        if mesh is not None:
+            file = mesh if not isinstance(mesh, tuple) else write_ply(self.folder / "m.ply", *mesh)
+            arguments = ["-i", file, "-o", inner, "-l", "x"]
+        saved = self.folder / "saved.mlp"
+        status, log = meshlabserver(*arguments, "-w", saved, "-s", script)
+        self.assertNotEqual(status, 0, log)
+        self.assertNotIn(status, (134, 139), "no crash")
+        # The sentence stands just before meshlabserver's own.
+        lines = log.splitlines()
+        said = lines[lines.index("Problem with filter: Mass Property Optimization") - 1]
+        self.assertRegex(said, sentence)
+        self.assertRegex(said, r"^[A-Za-z].*\.$", "a whole sentence")
+        for name in filters:
+            self.assertIn(name, said)
+            # Versions differ in what they append to a name.
+            self.assertTrue(any(f.startswith(name) for f in self.filters()), f"no filter {name}")
+        self.assertNotRegex(log, r"(?m)^[a-z_]+ = ", "no report")
+        self.assertFalse(inner.exists())
+        self.assertFalse(saved.exists())
+
+    @classmethod
+    def filters(cls):
+        """Menu texts of all filters of this MeshLab."""
+        if not hasattr(cls, "_filters"):
+            with tempfile.TemporaryDirectory() as folder:
+                dump = pathlib.Path(folder) / "filters.txt"
+                meshlabserver("-d", dump)
+                text = dump.read_text(errors="replace")
+            cls._filters = set(re.findall(r"(?m)^\\section f\d+ (.*?) *$", text))
+        return cls._filters
+
+    def test_no_layer(self):
+        self.refuse(None, "no layer.*Import Mesh")
+
+    def test_points_without_faces(self):
+        points, _ = cube()
+        self.refuse((points, np.zeros((0, 3), int)), "no faces",
+                    ["Surface Reconstruction: Screened Poisson"])
+
+    def test_a_hole(self):
+        points, faces = cube()
+        self.refuse((points, faces[1:]), "3 boundary edges", ["Close Holes"])
+
+    def test_separate_triangles(self):
+        points, faces = cube()
+        self.refuse((points[faces.ravel()], np.arange(faces.size).reshape(-1, 3)),
+                    "boundary edges.*on top of each other", ["Merge Close Vertices"])
+
+    def test_a_non_manifold_edge(self):
+        points, faces = cube()
+        a, b, _ = faces[0]
+        points = np.vstack([points, [-5, -5, -5], [-6, -5, -5], [-5, -6, -5]])
+        n = len(points)
+        fin = [(a, b, n - 3), (b, a, n - 2), (a, n - 3, n - 1), (n - 3, b, n - 1),
+               (b, n - 2, n - 1), (n - 2, a, n - 1)]
+        self.refuse((points, np.vstack([faces, fin])), "non-manifold",
+                    ["Repair non Manifold Edges"])
+
+    def test_a_non_manifold_vertex(self):
+        points, faces = cube()
+        far = points + 10.0
+        corner = int(np.argmin(np.abs(points).sum(1)))
+        opposite = int(np.argmin(np.abs(points - 10.0).sum(1)))
+        other = faces + len(points)
+        other[other == corner + len(points)] = opposite
+        self.refuse((np.vstack([points, far]), np.vstack([faces, other])), "non-manifold vert",
+                    ["Repair non Manifold Vertices by splitting"])
+
+    def test_incoherent_orientation(self):
+        points, faces = cube()
+        faces[7] = faces[7][::-1]
+        self.refuse((points, faces), "orient", ["Re-Orient all faces coherentely"])
+
+    def test_two_components(self):
+        points, faces = cube()
+        self.refuse((np.vstack([points, points + [20, 0, 0]]),
+                     np.vstack([faces, faces + len(points)])), "2 |two ",
+                    ["Split in Connected Components"])
+
+    def test_a_surface_that_crosses_itself(self):
+        points, faces = cube()
+        # One inner vertex of the bottom is pulled through the top.
+        vertex = int(np.argmin(np.linalg.norm(points - [5, 5, 0], axis=1)))
+        points[vertex] = [5, 5, 15]
+        self.refuse((points, faces), "cross", ["Select Self Intersecting Faces"])
+
+    def test_more_basis_functions_than_vertices(self):
+        self.refuse(cube(), "basis_k is 99.*vertices", basis_k=99)
+
+    def test_no_basis_function(self):
+        self.refuse(cube(), "basis_k is 0", basis_k=0)
+
+    def test_lower_above_upper_outer_bound(self):
+        self.refuse(cube(), "outer_lower_bound.*outer_upper_bound", basis_k=8,
+                    outer_lower_bound=2, outer_upper_bound=1)
+
+    def test_lower_above_upper_inner_bound(self):
+        self.refuse(cube(), "inner_lower_bound", basis_k=8, inner_lower_bound=100)
+
+    def test_inner_upper_bound_above_one(self):
+        self.refuse(cube(), "inner_upper_bound", basis_k=8, inner_upper_bound=1.5)
+
+    def test_negative_lengths(self):
+        for name in ("inner_lower_bound", "outer_lower_bound", "outer_upper_bound"):
+            with self.subTest(name):
+                self.refuse(cube(), name, basis_k=8, **{name: -1})
+
+    def test_negative_radius(self):
+        self.refuse(cube(), "radius_x", basis_k=8, radius_x=-1, radius_y=2)
+
+    def test_densities(self):
+        self.refuse(cube(), "density", basis_k=8, density=-1)
+        self.refuse(cube(), "density", basis_k=8, density=0)
+        self.refuse(cube(), "fill_density", basis_k=8, fill_density=-1)
+        self.refuse(cube(), "density", basis_k=8, density="nan")
+
+    def test_negative_weight(self):
+        for i in range(1, 7):
+            with self.subTest(i):
+                self.refuse(cube(), "opt_weight", basis_k=8, **{f"opt_weight_{i}": -1})
+
+    def test_entries_that_do_not_exist(self):
+        self.refuse(cube(), "'goal' is entry 2", goal=2)
+        self.refuse(cube(), "'up_axis' is entry -1", up_axis=-1)
+
+
+if __name__ == "__main__":
+    unittest.main()
