@@ -1,0 +1,279 @@
+// Objectives, constraints and verdicts of the goals on bodies whose behaviour is known, and their
+// derivatives.
+#include "core/goals.h"
+
+#include "shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace massprops::testing {
+namespace {
+
+const Weights kPublished;
+
+Moments momentsOf(const TriangleMesh& mesh) {
+  return moments(mesh.vertices, mesh.faces);
+}
+
+ContactArea square(double side) {
+  const double h = side / 2;
+  return {{{-h, -h}, {h, -h}, {h, h}, {-h, h}}, {}};
+}
+
+ContactArea ellipse(double rx, double ry) {
+  return {{}, Vec2(rx, ry)};
+}
+
+/// A body of mass `m` with its centre at `c` and the inertia of a ball.
+Moments bodyAt(const Vec3& c, double m = 1.0) {
+  const TriangleMesh ball = sphere(4);
+  const Moments unit = momentsOf(ball) / momentsOf(ball)[0];
+  return m * translated(unit, c);
+}
+
+double number(const Report& report, const std::string& key) {
+  return std::get<double>(report.at(key));
+}
+
+bool truth(const Report& report, const std::string& key) {
+  return std::get<bool>(report.at(key));
+}
+
+Report described(const Goal& goal, const Moments& m) {
+  Report report;
+  goal.describe(m, "after", report);
+  return report;
+}
+
+/// All values of the goal in one vector: objective, equalities, inequalities.
+Vector allValues(const Goal& goal, const Moments& m) {
+  const Vector e = goal.equalities(m).values;
+  const Vector g = goal.inequalities(m).values;
+  Vector all(1 + e.size() + g.size());
+  all << goal.objective(m).value, e, g;
+  return all;
+}
+
+Matrix allGradients(const Goal& goal, const Moments& m) {
+  const MomentGradients e = goal.equalities(m).gradients;
+  const MomentGradients g = goal.inequalities(m).gradients;
+  Matrix all(1 + e.rows() + g.rows(), 10);
+  all.row(0) = goal.objective(m).gradient;
+  all.middleRows(1, e.rows()) = e;
+  all.bottomRows(g.rows()) = g;
+  return all;
+}
+
+void expectGradientsMatch(const Goal& goal, const Moments& m) {
+  const Matrix gradients = allGradients(goal, m);
+  // Smooth functions of order one: truncation h² = 1e-10, rounding 1e-16/h = 1e-11; both times the
+  // third derivatives and values, some tens for the quotient of moments.
+  const double h = 1e-5;
+  for (int k = 0; k < 10; ++k) {
+    Moments step = Moments::Zero();
+    step[k] = h;
+    const Vector difference = (allValues(goal, m + step) - allValues(goal, m - step)) / (2 * h);
+    for (Eigen::Index r = 0; r < difference.size(); ++r) {
+      EXPECT_NEAR(gradients(r, k), difference[r], 1e-6 * (1 + std::abs(difference[r])))
+          << "value " << r << ", moment " << k;
+    }
+  }
+}
+
+TEST(StandGoal, HasTheGradientsOfItsValues) {
+  const Moments m = momentsOf(transformed(blob(5), someRotation(), {0.2, -0.1, 0.7}));
+  for (const ContactArea& area : {square(0.5), ellipse(0.3, 0.2)}) {
+    expectGradientsMatch(*makeStandGoal(area, kPublished), m);
+  }
+}
+
+TEST(StandGoal, IsTheHeightAndTheSquaredDistanceFromTheContactCentre) {
+  const auto goal = makeStandGoal(square(1.0), kPublished);
+  EXPECT_NEAR(goal->objective(bodyAt({0.2, -0.3, 0.6})).value, 0.04 + 0.09 + 0.6, 1e-12);
+  EXPECT_NEAR(goal->objective(bodyAt({0.2, -0.3, 0.6}, 7.0)).value, 0.04 + 0.09 + 0.6, 1e-12);
+}
+
+TEST(StandGoal, ScalesItsObjectiveWithTheWeightOfTheCentreOfMass) {
+  Weights triple;
+  triple.centerOfMass = 3.0;
+  const Moments m = bodyAt({0.2, -0.3, 0.6});
+  EXPECT_NEAR(makeStandGoal(square(1.0), triple)->objective(m).value,
+              3 * makeStandGoal(square(1.0), kPublished)->objective(m).value, 1e-12);
+}
+
+TEST(StandGoal, IsReachedExactlyAboveTheContactArea) {
+  for (const ContactArea& area : {square(1.0), ellipse(0.5, 0.5)}) {
+    const auto goal = makeStandGoal(area, kPublished);
+    for (const double x : {0.0, 0.3, 0.49}) EXPECT_TRUE(goal->isReached(bodyAt({x, 0, 0.6})));
+    for (const double x : {0.51, 2.0}) EXPECT_FALSE(goal->isReached(bodyAt({x, 0, 0.6})));
+  }
+}
+
+TEST(StandGoal, HasConstraintsThatImplyStandingWithAMargin) {
+  // Whatever satisfies the constraints stands; what is beyond the area violates them.
+  Random random(17);
+  for (const ContactArea& area : {square(0.8), ellipse(0.5, 0.25)}) {
+    const auto goal = makeStandGoal(area, kPublished);
+    int feasible = 0;
+    for (int trial = 0; trial < 300; ++trial) {
+      const Moments m = bodyAt({0.6 * random(), 0.6 * random(), 0.5 + 0.4 * random()});
+      const bool holds = goal->inequalities(m).values.maxCoeff() <= 0.0;
+      feasible += holds ? 1 : 0;
+      if (holds) EXPECT_GT(number(described(*goal, m), "tip_angle_after"), 0.0);
+      if (!goal->isReached(m)) EXPECT_GT(goal->inequalities(m).values.maxCoeff(), 0.0);
+    }
+    EXPECT_GT(feasible, 20); // else nothing was tested
+    EXPECT_LT(feasible, 280);
+  }
+}
+
+TEST(StandGoal, NeedsTheCentreOfMassAboveTheGround) {
+  const auto goal = makeStandGoal(square(1.0), kPublished);
+  EXPECT_GT(goal->inequalities(bodyAt({0, 0, -0.1})).values.maxCoeff(), 0.0);
+  EXPECT_LE(goal->inequalities(bodyAt({0, 0, 0.1})).values.maxCoeff(), 0.0);
+}
+
+TEST(StandGoal, ReportsTheTippingAngle) {
+  const auto goal = makeStandGoal(square(1.0), kPublished);
+  const Report stands = described(*goal, bodyAt({0, 0, 0.5}));
+  EXPECT_NEAR(number(stands, "tip_angle_after"), 45.0, 1e-9);
+  EXPECT_TRUE(truth(stands, "stands_after"));
+  const Report falls = described(*goal, bodyAt({1.0, 0, 0.5}));
+  EXPECT_NEAR(number(falls, "tip_angle_after"), -45.0, 1e-9);
+  EXPECT_FALSE(truth(falls, "stands_after"));
+}
+
+TEST(StandGoal, KeepsManyCornersOfARoundFoot) {
+  // 1000 corners on a circle: the constraint polygon is inscribed, so it is never too generous.
+  ContactArea round;
+  for (int i = 0; i < 1000; ++i) {
+    const double t = 2 * std::acos(-1.0) * i / 1000;
+    round.polygon.emplace_back(0.3 * std::cos(t), 0.3 * std::sin(t));
+  }
+  const auto goal = makeStandGoal(round, kPublished);
+  EXPECT_LT(goal->inequalities(bodyAt({0, 0, 0.5})).values.size(), 100);
+  for (int i = 0; i < 64; ++i) {
+    const double t = 0.1 * i;
+    const Vec3 outside(0.301 * std::cos(t), 0.301 * std::sin(t), 0.5);
+    const Vec3 inside(0.2 * std::cos(t), 0.2 * std::sin(t), 0.5);
+    EXPECT_GT(goal->inequalities(bodyAt(outside)).values.maxCoeff(), 0.0);
+    EXPECT_LE(goal->inequalities(bodyAt(inside)).values.maxCoeff(), 0.0);
+  }
+}
+
+std::unique_ptr<Goal> spinGoal(const Moments& solid, const Weights& weights = kPublished) {
+  return makeSpinGoal(solid, weights, 1.0);
+}
+
+/// A box of the given size that stands on the pivot, its centre above it.
+Moments standingBox(const Vec3& size) {
+  return momentsOf(transformed(box(size, 1), Mat3::Identity(), {0, 0, size.z() / 2 + 0.1}));
+}
+
+TEST(SpinGoal, HasTheGradientsOfItsValues) {
+  const Moments solid = momentsOf(transformed(blob(5), someRotation(), {0.2, -0.1, 0.7}));
+  const TriangleMesh cavity = transformed(blob(4), 0.6 * rotation({1, 1, 0}, 0.4), {0.1, 0.1, 0.6});
+  expectGradientsMatch(*spinGoal(solid), solid - momentsOf(cavity));
+}
+
+TEST(SpinGoal, HasADerivativeWhereTheHorizontalMomentsAreEqual) {
+  // I_xx = I_yy, I_xy = 0: the eigenvalues themselves have a kink there.
+  // Density 20 makes the moments of order one, as the step of the differences expects.
+  const Moments disc = 20 * standingBox({1.0, 1.0, 0.2});
+  expectGradientsMatch(*spinGoal(disc), disc);
+}
+
+TEST(SpinGoal, IsTheStaticMomentAndTheSumOfSquaredRatios) {
+  const Vec3 s(1.0, 0.8, 0.3);
+  const Moments m = standingBox(s);
+  const double a = s.x() * s.x() + s.z() * s.z(); // of I_yy, all without m/12
+  const double b = s.y() * s.y() + s.z() * s.z();
+  const double c = s.x() * s.x() + s.y() * s.y();
+  const double height = s.z() / 2 + 0.1;
+  EXPECT_NEAR(spinGoal(m)->objective(m).value, height + (a * a + b * b) / (c * c), 1e-12);
+  // Half the mass in the same shape: half the static moment, the same ratios.
+  EXPECT_NEAR(spinGoal(m)->objective(0.5 * m).value, height / 2 + (a * a + b * b) / (c * c), 1e-12);
+}
+
+TEST(SpinGoal, HasIndependentWeightsForCentreAndInertia) {
+  Weights onlyCentre;
+  onlyCentre.inertia = 0.0;
+  Weights onlyInertia;
+  onlyInertia.centerOfMass = 0.0;
+  const Moments m = standingBox({1.0, 0.8, 0.3});
+  EXPECT_NEAR(spinGoal(m, onlyCentre)->objective(m).value, 0.25, 1e-12);
+  EXPECT_NEAR(spinGoal(m, onlyCentre)->objective(m).value +
+                  spinGoal(m, onlyInertia)->objective(m).value,
+              spinGoal(m)->objective(m).value, 1e-12);
+}
+
+TEST(SpinGoal, DoesNotChangeWhenTheBodyIsTurnedAboutItsAxis) {
+  const Moments m = standingBox({1.0, 0.6, 0.3});
+  const TriangleMesh turned =
+      transformed(transformed(box({1.0, 0.6, 0.3}, 1), Mat3::Identity(), {0, 0, 0.25}),
+                  rotation(Vec3::UnitZ(), 0.7));
+  EXPECT_NEAR(spinGoal(m)->objective(momentsOf(turned)).value, spinGoal(m)->objective(m).value,
+              1e-12);
+  EXPECT_LT(largestViolation(*spinGoal(m), momentsOf(turned)), 1e-12);
+}
+
+TEST(SpinGoal, InertiaTermIsNeverBelowOneHalf) {
+  // For a principal axis I_zz ≤ I_a + I_b, so I_a² + I_b² ≥ I_zz²/2; a flat disc comes near.
+  Weights onlyInertia;
+  onlyInertia.centerOfMass = 0.0;
+  Random random(23);
+  for (int trial = 0; trial < 50; ++trial) {
+    const Vec3 size = (random.vector().array() + 1.05).matrix();
+    const Moments m = standingBox(size);
+    EXPECT_GE(spinGoal(m, onlyInertia)->objective(m).value, 0.5);
+  }
+  const Moments flat = standingBox({1, 1, 0.001});
+  EXPECT_NEAR(spinGoal(flat, onlyInertia)->objective(flat).value, 0.5, 1e-5);
+}
+
+TEST(SpinGoal, HasNoViolationExactlyWhenTheAxisIsPrincipalAndCarriesTheCentre) {
+  const Moments upright = standingBox({1.0, 0.8, 0.3});
+  EXPECT_LT(largestViolation(*spinGoal(upright), upright), 1e-12);
+  // Off the axis, and leaning about a horizontal axis through its own centre.
+  EXPECT_NEAR(largestViolation(*spinGoal(upright), translated(upright, {0.07, 0, 0})), 0.07, 1e-12);
+  const TriangleMesh leaning =
+      transformed(transformed(box({1.0, 0.8, 0.3}, 1), rotation({1, 0, 0}, 0.3)), Mat3::Identity(),
+                  {0, 0, 0.5});
+  EXPECT_GT(largestViolation(*spinGoal(upright), momentsOf(leaning)), 1e-3);
+}
+
+TEST(SpinGoal, ReportsOffsetTiltAndRatios) {
+  const Vec3 s(1.0, 0.8, 0.3);
+  const TriangleMesh leaning = transformed(transformed(box(s, 1), rotation({1, 0, 0}, 0.2)),
+                                           Mat3::Identity(), {0.03, -0.04, 0.5});
+  const Moments solid = momentsOf(leaning);
+  const Report report = described(*makeSpinGoal(solid, kPublished, 200.0), solid);
+  EXPECT_NEAR(number(report, "axis_offset_after"), 0.05 * 200.0, 1e-9);
+  EXPECT_NEAR(number(report, "axis_tilt_after"), 0.2 * 180 / std::acos(-1.0), 1e-9);
+
+  const Moments upright = standingBox(s);
+  const Report straight = described(*spinGoal(upright), upright);
+  const double axial = s.x() * s.x() + s.y() * s.y();
+  EXPECT_NEAR(number(straight, "moment_ratio_a_after"), axial / (s.x() * s.x() + s.z() * s.z()),
+              1e-9);
+  EXPECT_NEAR(number(straight, "moment_ratio_b_after"), axial / (s.y() * s.y() + s.z() * s.z()),
+              1e-9);
+}
+
+TEST(SpinGoal, IsReachedAboutTheLargestAndTheSmallestMomentButNotTheMiddleOne) {
+  for (const auto& [size, spins] : std::vector<std::pair<Vec3, bool>>{
+           {{1.0, 0.8, 0.3}, true}, {{0.3, 0.4, 1.0}, true}, {{1.0, 0.3, 0.6}, false}}) {
+    const Moments m = standingBox(size);
+    EXPECT_EQ(spinGoal(m)->isReached(m), spins) << size.transpose();
+  }
+}
+
+TEST(SpinGoal, IsNotReachedOffTheAxis) {
+  const Moments m = translated(standingBox({1.0, 0.8, 0.3}), {0.01, 0, 0});
+  EXPECT_FALSE(spinGoal(m)->isReached(m));
+}
+
+} // namespace
+} // namespace massprops::testing
