@@ -1,5 +1,7 @@
 #include "core/bounds.h"
 
+#include "core/spatial.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,11 +14,30 @@ constexpr double kLeastClearance = 0.05;
 /// Offsets need some room to be worth a cavity: a share of the greatest one.
 constexpr double kLeastRoom = 0.02;
 constexpr double kContactHeight = 1e-4;
+constexpr double kWallSlack = 1e-3;
 
 } // namespace
 
 OffsetBounds innerBounds(const OffsetField& field, double wall, double factor) {
   return {wall * field.clearance.cwiseMax(kLeastClearance).cwiseInverse(), factor * field.reach};
+}
+
+OffsetBounds keepingWall(const Points& vertices, const Faces& faces, const OffsetField& field,
+                         OffsetBounds bounds, double wall) {
+  constexpr int kMostSteps = 20;
+  const SurfaceIndex surface(vertices, faces);
+  const std::vector<SurfaceIndex::Nearest> hints = verticesAsHints(vertices, faces);
+  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
+    double& offset = bounds.lower[v];
+    for (int step = 0; step < kMostSteps && offset <= bounds.upper[v]; ++step) {
+      // The distance grows by at most the step, so that no step goes too far.
+      const Vec3 y = (vertices.row(v) - offset * field.directions.row(v)).transpose();
+      const double missing = wall - surface.nearest(y, hints[static_cast<std::size_t>(v)]).distance;
+      if (missing <= kWallSlack * wall) break;
+      offset += missing;
+    }
+  }
+  return bounds;
 }
 
 std::vector<char> tooThin(const OffsetField& field, const OffsetBounds& bounds) {

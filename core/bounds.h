@@ -18,6 +18,11 @@ struct OffsetBounds {
 /// l_i > u_i. docs/math.md "Wall thickness".
 OffsetBounds innerBounds(const OffsetField& field, double wall, double factor);
 
+/// The same bounds with the lower ones raised until every vertex x_i − l_i d_i is at least `wall`
+/// away from the whole surface, not only from the faces around it; past u_i where that cannot be.
+OffsetBounds keepingWall(const Points& vertices, const Faces& faces, const OffsetField& field,
+                         OffsetBounds bounds, double wall);
+
 /// Vertices without room between their bounds, or without a direction that moves all their faces
 /// inwards: 1, else 0.
 std::vector<char> tooThin(const OffsetField& field, const OffsetBounds& bounds);

@@ -22,7 +22,7 @@ struct CavityTask {
   const Vector& mass; ///< lumped, total 1
   const Goal& goal;
   Weights weights = {};
-  double solidVolume = 0.0;
+  Moments solidMoments = Moments::Zero();
   double fillDensity = 0.0; ///< as a multiple of the material's density
   double wall = 0.0;        ///< working length
   OffsetBounds inner = {};

@@ -36,19 +36,15 @@ OffsetSurfaces offsetSurfaces(const OffsetModel& model, const Vector& coefficien
   return surfaces;
 }
 
-Moments massMoments(const OffsetModel& model, const OffsetSurfaces& surfaces) {
-  return shellMoments(moments(surfaces.outer, model.faces),
-                      moments(surfaces.inner, model.innerFaces), 1.0, model.fillDensity);
-}
-
 Evaluation evaluate(const OffsetModel& model, const Goal& goal, const Weights& weights,
-                    double solidVolume, const Vector& coefficients) {
+                    const Vector& coefficients) {
   const Eigen::Index k = model.basis.functions.cols();
   const OffsetSurfaces surfaces = offsetSurfaces(model, coefficients);
 
   // The ten mass moments and their derivatives by all coefficients.
   const Moments inner = moments(surfaces.inner, model.innerFaces);
-  const Moments outer = moments(surfaces.outer, model.faces);
+  const Moments outer = model.outer ? moments(surfaces.outer, model.faces) : model.solidMoments;
+  const double solidVolume = model.solidMoments[0];
   const Moments mass = shellMoments(outer, inner, 1.0, model.fillDensity);
   MomentJacobian massJacobian(10, coefficients.size());
   const MomentJacobian innerJacobian =

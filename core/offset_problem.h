@@ -22,6 +22,7 @@ struct OffsetModel {
   std::optional<OffsetBounds> outer; ///< empty: the outer surface stays
   Faces innerFaces;                  ///< of the cavity, outward, over the same vertices
   double fillDensity = 0.0;          ///< as a multiple of the material's density
+  Moments solidMoments;              ///< of the input surface
 };
 
 /// The two surfaces that a set of coefficients stands for.
@@ -34,13 +35,9 @@ struct OffsetSurfaces {
 /// `coefficients`: α (k), followed by β (k) when the outer surface moves.
 OffsetSurfaces offsetSurfaces(const OffsetModel& model, const Vector& coefficients);
 
-/// Mass moments of the shell, the material's density being 1.
-Moments massMoments(const OffsetModel& model, const OffsetSurfaces& surfaces);
-
 /// Objective terms 1–6 and the goal's constraints at `coefficients`; docs/math.md "Objective".
-/// `solidVolume`: of the input.
 Evaluation evaluate(const OffsetModel& model, const Goal& goal, const Weights& weights,
-                    double solidVolume, const Vector& coefficients);
+                    const Vector& coefficients);
 
 /// The same objective of bodies that are given by their moments and offsets, for reports.
 /// `volumeShare`: material over volume of the solid; `innerOffsets`, `outerOffsets`: n entries, or

@@ -30,8 +30,9 @@ class ScaledProblem {
 public:
   ScaledProblem(const Problem& problem, const Vector& start, const OptimizeOptions& options)
       : problem_(problem), options_(options) {
-    const Evaluation& e = at(std::vector<double>(start.data(), start.data() + start.size()));
-    objectiveScale_ = scaleFor(e.objectiveGradient.norm(), kGradientNorm);
+    const Evaluation& e = at(start);
+    objectiveScale_ =
+        options.objectiveScale.value_or(scaleFor(e.objectiveGradient.norm(), kGradientNorm));
     equalityScales_.resize(e.equalities.size());
     for (Eigen::Index i = 0; i < e.equalities.size(); ++i) {
       equalityScales_[i] = scaleFor(e.equalityJacobian.row(i).norm(), 1.0);
@@ -40,6 +41,10 @@ public:
     for (Eigen::Index i = 0; i < e.inequalities.size(); ++i) {
       inequalityScales_[i] = scaleFor(e.inequalityJacobian.row(i).norm(), 1.0);
     }
+  }
+
+  const Evaluation& at(const Vector& x) {
+    return at(std::vector<double>(x.data(), x.data() + x.size()));
   }
 
   const Evaluation& at(const std::vector<double>& x) {
@@ -63,6 +68,7 @@ public:
   OptimizeResult best() const {
     OptimizeResult result = best_;
     result.violation = std::max(0.0, bestEvaluationViolation_);
+    result.objectiveScale = objectiveScale_;
     return result;
   }
 
@@ -121,6 +127,53 @@ private:
   Vector inequalityScales_;
 };
 
+/// Equalities and violated inequalities with their derivatives, the residual of the restoration.
+struct Residual {
+  Vector values;
+  Matrix jacobian;
+};
+
+Residual violatedConstraints(const Evaluation& e) {
+  Residual residual{Vector(e.equalities.size() + e.inequalities.size()), {}};
+  residual.jacobian = Matrix::Zero(residual.values.size(), e.objectiveGradient.size());
+  residual.values << e.equalities, e.inequalities.cwiseMax(0.0);
+  if (e.equalities.size() > 0) residual.jacobian.topRows(e.equalities.size()) = e.equalityJacobian;
+  for (Eigen::Index i = 0; i < e.inequalities.size(); ++i) {
+    if (e.inequalities[i] > 0.0) {
+      residual.jacobian.row(e.equalities.size() + i) = e.inequalityJacobian.row(i);
+    }
+  }
+  return residual;
+}
+
+/// Levenberg–Marquardt on the violated constraints, from the best point so far.
+void restoreFeasibility(ScaledProblem& scaled, const OptimizeOptions& options) {
+  constexpr int kMostSteps = 30;
+  Vector x = scaled.best().x;
+  Residual residual = violatedConstraints(scaled.at(x));
+  double damping = 1e-6;
+  for (int step = 0; step < kMostSteps; ++step) {
+    if (scaled.best().violation <= options.feasibility) return;
+    // (JJᵀ + damping) λ = r, Δx = −Jᵀλ: the shortest step, for there are fewer residuals than x.
+    Matrix normal = residual.jacobian * residual.jacobian.transpose();
+    normal.diagonal().array() += damping * std::max(normal.trace(), 1e-30);
+    const Vector next = (x - residual.jacobian.transpose() * normal.ldlt().solve(residual.values))
+                            .cwiseMax(-options.range)
+                            .cwiseMin(options.range);
+    const Residual reached = violatedConstraints(scaled.at(next));
+    if (reached.values.squaredNorm() < residual.values.squaredNorm()) {
+      const bool stalled =
+          reached.values.squaredNorm() > (1.0 - 1e-4) * residual.values.squaredNorm();
+      x = next;
+      residual = reached;
+      damping = std::max(1e-9, 0.2 * damping);
+      if (stalled) return;
+    } else {
+      damping *= 10.0;
+    }
+  }
+}
+
 std::string describe(nlopt::result result) {
   switch (result) {
   case nlopt::FTOL_REACHED:
@@ -166,6 +219,7 @@ OptimizeResult minimize(const Problem& problem, const Vector& start,
     // optimum; the best point seen stands, and its constraints are checked by the caller.
     stopReason = "no further descent";
   }
+  restoreFeasibility(scaled, options);
   OptimizeResult result = scaled.best();
   result.stopReason = stopReason;
   return result;

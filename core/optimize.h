@@ -4,6 +4,7 @@
 #include "core/types.h"
 
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace massprops {
@@ -28,6 +29,8 @@ struct OptimizeOptions {
   double objectiveTolerance = 1e-5;
   /// A constraint holds when it is violated by no more than this.
   double feasibility = 1e-7;
+  /// Factor on the objective. Empty: such that its gradient at the start has length 10.
+  std::optional<double> objectiveScale;
   /// Box |x_j| ≤ range: past it the bound map is saturated.
   double range = 20.0;
 };
@@ -37,13 +40,15 @@ struct OptimizeResult {
   double objective = 0.0;
   double violation = 0.0; ///< largest constraint violation at x
   int evaluations = 0;
+  double objectiveScale = 1.0; ///< that was used
   std::string stopReason;
 };
 
 /// Sequential least-squares quadratic programming (NLopt's LD_SLSQP), on a problem scaled so that
 /// objective and constraints have gradients of about the same length at the start. Keeps the best
-/// of all points evaluated, for SLSQP may end on a worse or infeasible one. [Kra88]
-/// A goal out of reach is no error: see `violation`.
+/// of all points evaluated, for SLSQP may end on a worse or infeasible one. Where the constraints
+/// do not hold there, damped Gauss–Newton steps take the shortest way to where they do, or to the
+/// least squared violation when the goal is out of reach; see `violation`. [Kra88]
 OptimizeResult minimize(const Problem& problem, const Vector& start,
                         const OptimizeOptions& options = {});
 

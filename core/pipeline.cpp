@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 
 namespace massprops {
 namespace {
@@ -172,18 +173,23 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   const Workpiece piece = prepare(solid, options);
   requireNoSelfIntersection(piece, solid.faces());
 
-  tell(5, "Mean curvature skeleton");
+  // The basis does not need the skeleton: both cores work.
+  tell(5, "Mean curvature skeleton and harmonic basis");
+  const SparseMatrix L = cotanLaplacian(piece.vertices, solid.faces());
+  const Vector area = vertexLumpedMass(piece.vertices, solid.faces());
+  const Vector mass = area / area.sum();
+  double secondsBasis = 0.0;
+  std::future<HarmonicBasis> pendingBasis = std::async(std::launch::async, [&] {
+    const Stopwatch time;
+    HarmonicBasis result = harmonicBasis(L, mass, options.basisSize);
+    secondsBasis = time.seconds();
+    return result;
+  });
   const Stopwatch skeletonTime;
   const Points skeleton = meanCurvatureSkeleton(piece.vertices, solid.faces());
   const double secondsSkeleton = skeletonTime.seconds();
 
-  tell(60, "Harmonic basis");
-  const Stopwatch basisTime;
-  const SparseMatrix L = cotanLaplacian(piece.vertices, solid.faces());
-  const Vector area = vertexLumpedMass(piece.vertices, solid.faces());
-  const Vector mass = area / area.sum();
-  const HarmonicBasis basis = harmonicBasis(L, mass, options.basisSize);
-  const double secondsBasis = basisTime.seconds();
+  const HarmonicBasis basis = pendingBasis.get();
 
   tell(65, "Offset directions");
   const OffsetField field =
@@ -193,10 +199,11 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   const Moments outerMoments = moments(piece.vertices, solid.faces());
   const std::unique_ptr<Goal> goal = makeGoal(options, piece, outerMoments);
   CavityTask task{piece.vertices, solid.faces(), field, basis, L, mass, *goal, options.weights};
-  task.solidVolume = outerMoments[0];
+  task.solidMoments = outerMoments;
   task.fillDensity = options.fillDensity / options.density;
   task.wall = piece.wall;
-  task.inner = innerBounds(field, piece.wall, options.innerUpperBound);
+  task.inner = keepingWall(piece.vertices, solid.faces(), field,
+                           innerBounds(field, piece.wall, options.innerUpperBound), piece.wall);
   if (options.outerUpperBound > 0.0) {
     task.outer = outerBounds(piece.vertices, field, options.outerLowerBound / piece.frame.length,
                              options.outerUpperBound / piece.frame.length);

@@ -62,6 +62,13 @@ CGAL::Bbox_3 grown(const CGAL::Bbox_3& box, double margin) {
 struct SurfaceIndex::Tree {
   Triangles triangles;
   TriangleTree tree;
+
+  Nearest result(const Kernel::Point_3& query,
+                 const TriangleTree::Point_and_primitive_id& closest) const {
+    return {std::sqrt(CGAL::squared_distance(query, closest.first)),
+            static_cast<int>(closest.second - triangles.cbegin()),
+            {closest.first.x(), closest.first.y(), closest.first.z()}};
+  }
 };
 
 SurfaceIndex::SurfaceIndex(const Points& vertices, const Faces& faces)
@@ -99,10 +106,26 @@ Vector SurfaceIndex::chords(const Points& points, const Points& directions) cons
 
 SurfaceIndex::Nearest SurfaceIndex::nearest(const Vec3& p) const {
   const Kernel::Point_3 query(p.x(), p.y(), p.z());
-  const auto closest = tree_->tree.closest_point_and_primitive(query);
-  return {std::sqrt(CGAL::squared_distance(query, closest.first)),
-          static_cast<int>(closest.second - tree_->triangles.cbegin()),
-          {closest.first.x(), closest.first.y(), closest.first.z()}};
+  return tree_->result(query, tree_->tree.closest_point_and_primitive(query));
+}
+
+SurfaceIndex::Nearest SurfaceIndex::nearest(const Vec3& p, const Nearest& hint) const {
+  if (hint.face < 0) return nearest(p);
+  const Kernel::Point_3 query(p.x(), p.y(), p.z());
+  const TriangleTree::Point_and_primitive_id start({hint.point.x(), hint.point.y(), hint.point.z()},
+                                                   std::next(tree_->triangles.cbegin(), hint.face));
+  return tree_->result(query, tree_->tree.closest_point_and_primitive(query, start));
+}
+
+std::vector<SurfaceIndex::Nearest> verticesAsHints(const Points& vertices, const Faces& faces) {
+  std::vector<SurfaceIndex::Nearest> hints(static_cast<std::size_t>(vertices.rows()),
+                                           {0.0, -1, Vec3::Zero()});
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    for (const int v : faces.row(f)) {
+      hints[static_cast<std::size_t>(v)] = {0.0, static_cast<int>(f), vertices.row(v).transpose()};
+    }
+  }
+  return hints;
 }
 
 Vector surfaceDistances(const Points& vertices, const Faces& faces, const Points& otherVertices,
@@ -112,14 +135,22 @@ Vector surfaceDistances(const Points& vertices, const Faces& faces, const Points
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Vector distance = Vector::Constant(vertices.rows(), kInfinity);
   if (faces.rows() == 0) return distance;
-  const SurfaceIndex other(otherVertices, otherFaces);
-  for (Eigen::Index corner = 0; corner < faces.size(); ++corner) {
-    double& d = distance[faces.data()[corner]];
-    if (d == kInfinity) d = other.nearest(vertices.row(faces.data()[corner]).transpose()).distance;
+  const std::vector<SurfaceIndex::Nearest> own = verticesAsHints(vertices, faces);
+  const std::vector<SurfaceIndex::Nearest> others = verticesAsHints(otherVertices, otherFaces);
+  // A cavity vertex lies near the outer vertex of the same number, when there is one.
+  const auto hintFrom = [](const std::vector<SurfaceIndex::Nearest>& hints, Eigen::Index v) {
+    return v < static_cast<Eigen::Index>(hints.size()) ? hints[static_cast<std::size_t>(v)]
+                                                       : SurfaceIndex::Nearest{0.0, -1, {}};
+  };
+  const SurfaceIndex otherIndex(otherVertices, otherFaces);
+  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
+    if (own[static_cast<std::size_t>(v)].face < 0) continue;
+    distance[v] = otherIndex.nearest(vertices.row(v).transpose(), hintFrom(others, v)).distance;
   }
-  const SurfaceIndex own(vertices, faces);
+  const SurfaceIndex ownIndex(vertices, faces);
   for (Eigen::Index v = 0; v < otherVertices.rows(); ++v) {
-    const SurfaceIndex::Nearest nearest = own.nearest(otherVertices.row(v).transpose());
+    const SurfaceIndex::Nearest nearest =
+        ownIndex.nearest(otherVertices.row(v).transpose(), hintFrom(own, v));
     for (const int corner : faces.row(nearest.face)) {
       distance[corner] = std::min(distance[corner], nearest.distance);
     }

@@ -4,6 +4,7 @@
 #include "core/types.h"
 
 #include <memory>
+#include <vector>
 
 namespace massprops {
 
@@ -22,15 +23,21 @@ public:
   struct Nearest {
     double distance;
     int face;
-    Vec3 point;
+    Vec3 point; ///< on that face
   };
-  /// The nearest point of the surface and the triangle it lies on.
+  /// The nearest point of the surface and the triangle it lies on; quicker with any point of the
+  /// surface that is known to be near.
   Nearest nearest(const Vec3& point) const;
+  Nearest nearest(const Vec3& point, const Nearest& hint) const;
 
 private:
   struct Tree;
   std::unique_ptr<Tree> tree_;
 };
+
+/// For every vertex the vertex itself, as a point of a triangle around it: a hint for `nearest`.
+/// Vertices without a face have face −1.
+std::vector<SurfaceIndex::Nearest> verticesAsHints(const Points& vertices, const Faces& faces);
 
 /// Least distance between two disjoint surfaces, faces and edges included, told for every vertex of
 /// the first that a face uses: the least over the triangles around it; infinity for other vertices.

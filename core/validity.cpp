@@ -4,6 +4,7 @@
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/box_intersection_d.h>
 
 #include <set>
 #include <stdexcept>
@@ -32,6 +33,26 @@ void append(Mesh& mesh, const Points& vertices, const Faces& faces) {
   }
 }
 
+using TriangleIterator = std::vector<Kernel::Triangle_3>::const_iterator;
+using Box = CGAL::Box_intersection_d::Box_with_handle_d<double, 3, TriangleIterator>;
+
+std::vector<Kernel::Triangle_3> triangles(const Points& vertices, const Faces& faces) {
+  const auto point = [&](int v) {
+    return Kernel::Point_3(vertices(v, 0), vertices(v, 1), vertices(v, 2));
+  };
+  std::vector<Kernel::Triangle_3> result;
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    result.emplace_back(point(faces(f, 0)), point(faces(f, 1)), point(faces(f, 2)));
+  }
+  return result;
+}
+
+std::vector<Box> boxes(const std::vector<Kernel::Triangle_3>& triangles) {
+  std::vector<Box> result;
+  for (auto t = triangles.cbegin(); t != triangles.cend(); ++t) result.emplace_back(t->bbox(), t);
+  return result;
+}
+
 FacePairs intersections(const Mesh& mesh) {
   FacePairs pairs;
   CGAL::Polygon_mesh_processing::self_intersections<CGAL::Sequential_tag>(
@@ -54,16 +75,19 @@ std::vector<int> selfIntersectingFaces(const Points& vertices, const Faces& face
 
 std::vector<int> crossingFaces(const Points& inner, const Faces& innerFaces, const Points& outer,
                                const Faces& outerFaces) {
-  Mesh mesh;
-  append(mesh, inner, innerFaces);
-  append(mesh, outer, outerFaces);
-  const auto innerCount = static_cast<int>(innerFaces.rows());
-  std::set<int> crossing;
-  for (const auto& [a, b] : intersections(mesh)) {
-    for (const auto face : {static_cast<int>(a.idx()), static_cast<int>(b.idx())}) {
-      if (face < innerCount) crossing.insert(face);
-    }
-  }
+  const std::vector<int> own = selfIntersectingFaces(inner, innerFaces);
+  std::set<int> crossing(own.begin(), own.end());
+  const std::vector<Kernel::Triangle_3> innerTriangles = triangles(inner, innerFaces);
+  const std::vector<Kernel::Triangle_3> outerTriangles = triangles(outer, outerFaces);
+  std::vector<Box> innerBoxes = boxes(innerTriangles);
+  std::vector<Box> outerBoxes = boxes(outerTriangles);
+  CGAL::box_intersection_d(innerBoxes.begin(), innerBoxes.end(), outerBoxes.begin(),
+                           outerBoxes.end(), [&](const Box& a, const Box& b) {
+                             if (CGAL::do_intersect(*a.handle(), *b.handle())) {
+                               crossing.insert(
+                                   static_cast<int>(a.handle() - innerTriangles.cbegin()));
+                             }
+                           });
   return {crossing.begin(), crossing.end()};
 }
 
