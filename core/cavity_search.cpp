@@ -112,30 +112,12 @@ CavityResult searchCavity(const CavityTask& task, const std::function<void(doubl
     result.secondsInspection += inspection.seconds();
     progress(1.0 - 1.0 / (2.0 + round));
     int ns = 0;
-    for (char c : solid) ns += c;
-    fprintf(stderr,
-            "round %d: crossing %zu thin %zu solid %d evals %d obj %.6f viol %.2e least wall "
-            "%.5f comps %d stop %s\n",
-            round, result.inspection.crossing.size(), result.inspection.thin.size(), ns,
-            best.evaluations, best.objective, best.violation,
-            result.inspection.leastWall / task.wall, result.inspection.components,
-            best.stopReason.c_str());
+    if (result.inspection.isClean()) return result;
+    tighten(task, result, neighbours, bounds, solid, round < kPatience);
   }
-  int ns = 0;
-  for (char c : solid) ns += c;
-  fprintf(stderr,
-          "round %d: crossing %zu thin %zu solid %d evals %d obj %.6f viol %.2e least wall "
-          "%.5f comps %d stop %s\n",
-          round, result.inspection.crossing.size(), result.inspection.thin.size(), ns,
-          best.evaluations, best.objective, best.violation, result.inspection.leastWall / task.wall,
-          result.inspection.components, best.stopReason.c_str());
-}
-if (result.inspection.isClean()) return result;
-tighten(task, result, neighbours, bounds, solid, round < kPatience);
-}
-result.cavity.faces.resize(0, 3);
-result.stopReason = "no cavity passes inspection";
-return result;
+  result.cavity.faces.resize(0, 3);
+  result.stopReason = "no cavity passes inspection";
+  return result;
 }
 
 } // namespace massprops
