@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Renders a picture of a run: the solid before on the left, the hollowed body after on the right,
-both cut open by the same vertical plane, with centre of mass, plumb line and contact area.
+both cut open by the same vertical plane, with centre of mass, plumb line and contact area. With
+--outer alone: a picture of the model from outside.
 
 Needs VTK 9 (Debian: python3-vtk9) and a display; without one run it under `xvfb-run -a`.
 """
@@ -12,6 +13,7 @@ import vtk
 from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 
 SIZE = (1600, 1000)
+OUTSIDE_SIZE = (800, 700)
 BACKGROUND = (1.0, 1.0, 1.0)
 GROUND = (0.93, 0.93, 0.92)
 OUTER = (0.62, 0.72, 0.80)
@@ -347,7 +349,7 @@ def labels(report, state):
     if str(report.get("goal", "")) == "Spin":
         offset, tilt = get("axis_offset"), get("axis_tilt")
         if offset is not None and tilt is not None:
-            headline = f"mass {offset:.2g} off the axis, axis tilted {tilt:.2g}\N{DEGREE SIGN}"
+            headline = f"wobbles: {offset:.2g} mm off the axis, tilted {tilt:.2g}\N{DEGREE SIGN}"
             if max(offset, tilt) < 0.01:
                 headline = "balanced: mass on the axis, axis upright"
         ratios = get("moment_ratio_a"), get("moment_ratio_b")
@@ -362,7 +364,7 @@ def labels(report, state):
     last = [f"mass {mass:.3g} g"] if mass is not None else []
     wall = report.get("min_wall")
     if state == "after" and isinstance(wall, float) and wall > 0:
-        last.append(f"least wall {wall:.3g}")
+        last.append(f"least wall {wall:.3g} mm")
     details.append(", ".join(last))
     return headline, [line for line in details if line]
 
@@ -390,7 +392,7 @@ class Scene:
         self.points = outer[0]
         # The ground: a disc under the whole model.
         around = np.radians(np.arange(0, 360, 3))
-        radius = 1.08 * np.linalg.norm(outer[0][:, :2] - self.centre[:2], axis=1).max()
+        radius = np.linalg.norm(outer[0][:, :2] - self.centre[:2], axis=1).max()
         self.disc = self.centre[:2] + radius * np.c_[np.cos(around), np.sin(around)]
 
     def camera(self, aspect):
@@ -415,9 +417,9 @@ class Scene:
         return camera
 
 
-def add_panel(window, scene, viewport, body, marks):
+def add_panel(window, size, scene, viewport, body, marks):
     """One half of the picture: the cut body in the lower layer, the marks on top of everything."""
-    aspect = (viewport[2] - viewport[0]) * SIZE[0] / ((viewport[3] - viewport[1]) * SIZE[1])
+    aspect = (viewport[2] - viewport[0]) * size[0] / ((viewport[3] - viewport[1]) * size[1])
     camera = scene.camera(aspect)
     lower, upper = vtk.vtkRenderer(), vtk.vtkRenderer()
     for layer, renderer in enumerate((lower, upper), start=1):
@@ -449,8 +451,12 @@ def body_actors(scene, outer, inner):
     result.append(actor(cap, MATERIAL, lit=False))
     for mesh in meshes:
         result.append(line_actor(outline(poly_data(*mesh), scene.plane), INK, 2))
-    result.append(actor(flat_polygon(scene.disc, scene.ground - 2e-3 * scene.diagonal), GROUND, lit=False))
+    result.append(ground_actor(scene))
     return result
+
+
+def ground_actor(scene):
+    return actor(flat_polygon(scene.disc, scene.ground - 2e-3 * scene.diagonal), GROUND, lit=False)
 
 
 def contact_actors(scene):
@@ -477,11 +483,13 @@ def mass_actors(scene, centre, color):
 def axis_actors(scene, centre, inertia, color):
     """The vertical through the pivot, dashed, and the principal axis nearest to it."""
     bottom = np.array([*scene.pivot, scene.ground])
-    top = bottom + [0, 0, 1.12 * scene.height]
+    top = bottom + [0, 0, 1.08 * scene.height]
     result = [line_actor(dashes(bottom, top, 0.018 * scene.height), INK, 2)]
     if inertia is not None:
-        axis = vertical_principal_axis(inertia) * 0.56 * scene.height
-        result.append(line_actor(segment(centre - axis, centre + axis), color, 4))
+        axis = vertical_principal_axis(inertia)
+        below = (scene.ground - centre[2]) / axis[2]
+        above = (top[2] - centre[2]) / axis[2]
+        result.append(line_actor(segment(centre + below * axis, centre + above * axis), color, 4))
     return result
 
 
@@ -515,20 +523,19 @@ def render(arguments):
     spins = report.get("goal") == "Spin"
     scene = Scene(outer, before, after if hollow else before)
 
-    window = vtk.vtkRenderWindow()
-    window.SetOffScreenRendering(True)
-    window.SetMultiSamples(8)
-    window.SetNumberOfLayers(4)
-    window.SetSize(*SIZE)
-    paper = vtk.vtkRenderer()
-    paper.SetBackground(BACKGROUND)
-    window.AddRenderer(paper)
+    if not arguments.inner and not arguments.report:
+        window = new_window(OUTSIDE_SIZE)
+        body = [actor(with_normals(poly_data(*outer)), OUTER, 0.12, 0.85, 0.15), ground_actor(scene)]
+        marks = contact_actors(scene) + mass_actors(scene, before, BEFORE)
+        add_panel(window, OUTSIDE_SIZE, scene, (0.0, 0.0, 1.0, 1.0), body, marks)
+        save(window, arguments.output)
+        return
 
-    contact = contact_actors(scene)
-    marks = contact + mass_actors(scene, before, BEFORE)
+    window = new_window(SIZE)
+    marks = contact_actors(scene) + mass_actors(scene, before, BEFORE)
     if spins:
         marks += axis_actors(scene, before, tensor("inertia_tensor_before"), BEFORE)
-    add_panel(window, scene, (0.0, 0.08, 0.5, 0.77), body_actors(scene, outer, None), marks)
+    add_panel(window, SIZE, scene, (0.0, 0.08, 0.5, 0.77), body_actors(scene, outer, None), marks)
 
     marks = contact_actors(scene)
     if hollow:
@@ -539,9 +546,25 @@ def render(arguments):
     body = body_actors(scene, outer if moved is None else moved, inner)
     if moved is not None:
         body.append(line_actor(outline(poly_data(*outer), scene.plane), BEFORE, 2))
-    add_panel(window, scene, (0.5, 0.08, 1.0, 0.77), body, marks)
+    add_panel(window, SIZE, scene, (0.5, 0.08, 1.0, 0.77), body, marks)
 
     add_labels(window, arguments, report, inner is not None)
+    save(window, arguments.output)
+
+
+def new_window(size):
+    window = vtk.vtkRenderWindow()
+    window.SetOffScreenRendering(True)
+    window.SetMultiSamples(8)
+    window.SetNumberOfLayers(4)
+    window.SetSize(*size)
+    paper = vtk.vtkRenderer()
+    paper.SetBackground(BACKGROUND)
+    window.AddRenderer(paper)
+    return window
+
+
+def save(window, path):
     window.Render()
     grab = vtk.vtkWindowToImageFilter()
     grab.SetInput(window)
@@ -549,7 +572,7 @@ def render(arguments):
     writer = vtk.vtkPNGWriter()
     writer.SetInputConnection(grab.GetOutputPort())
     writer.SetCompressionLevel(9)
-    writer.SetFileName(arguments.output)
+    writer.SetFileName(path)
     writer.Write()
 
 
@@ -573,13 +596,21 @@ def add_labels(window, arguments, report, has_cavity):
                            AFTER if good else BEFORE, bold=True, centred=True))
         for i, detail in enumerate(details):
             page.AddActor(text(detail, place * width, height - 180 - 32 * i, 24, centred=True))
+    mark = "centre of mass, principal axis" if goal == "Spin" else "centre of mass"
     legend = [(OUTER, "outer surface"), (MATERIAL, "material, cut"), (CAVITY, "cavity"),
-              (BEFORE, "centre of mass before"), (AFTER, "after"), (CONTACT, "contact area")]
-    x = 60
-    for color, label in legend:
+              (BEFORE, f"{mark} before"), (AFTER, "after"), (CONTACT, "contact area")]
+    entries = [(color, text(label, 0, 43, 22)) for color, label in legend]
+    box, widths = [0.0] * 4, []
+    for _, entry in entries:
+        entry.GetBoundingBox(page, box)
+        widths.append(box[1] - box[0])
+    gap = (width - 80 - sum(widths) - 36 * len(entries)) / (len(entries) - 1)
+    x = 40
+    for (color, entry), used in zip(entries, widths):
         page.AddActor(swatch(x, 30, 26, 26, color))
-        page.AddActor(text(label, x + 38, 43, 24))
-        x += 38 + 14 * len(label) + 42
+        entry.SetPosition(x + 36, 43)
+        page.AddActor(entry)
+        x += 36 + used + gap
 
 
 def main():

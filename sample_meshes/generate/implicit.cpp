@@ -42,9 +42,10 @@ Implicit roundedBox(const Vec3& size, double radius) {
   };
 }
 
-Implicit torus(double majorRadius, double minorRadius) {
+Implicit chainLink(double majorRadius, double minorRadius, double straight) {
   return [=](const Vec3& p) {
-    const double ring = std::sqrt(p.x() * p.x() + p.z() * p.z()) - majorRadius;
+    const double z = p.z() - std::clamp(p.z(), -straight / 2, straight / 2);
+    const double ring = std::sqrt(p.x() * p.x() + z * z) - majorRadius;
     return std::sqrt(ring * ring + p.y() * p.y()) - minorRadius;
   };
 }

@@ -19,8 +19,9 @@ inline Implicit ball(const Vec3& center, double radius) {
 Implicit roundCone(const Vec3& a, double radiusA, const Vec3& b, double radiusB);
 /// Box centred at the origin whose edges and corners are rounded by `radius`.
 Implicit roundedBox(const Vec3& size, double radius);
-/// Torus about the y axis, centred at the origin.
-Implicit torus(double majorRadius, double minorRadius);
+/// A chain link about the y axis, centred at the origin: a torus cut in half and drawn apart along z
+/// by straight pieces of length `straight`.
+Implicit chainLink(double majorRadius, double minorRadius, double straight);
 
 /// Union whose seam is blended twice differentiably over a width of about `blend`.
 Implicit smoothUnion(Implicit a, Implicit b, double blend);

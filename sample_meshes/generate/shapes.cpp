@@ -27,8 +27,8 @@ Sample boxOnCorner() {
   const Vec3 down = -size.normalized();
   const Eigen::Matrix3d upright =
       Eigen::Quaterniond::FromTwoVectors(down, -Vec3::UnitZ()).toRotationMatrix();
-  const Eigen::Matrix3d turn = rotation(Vec3(1, 1, 0), 0.22) * upright;
-  const double cut = 8.5;
+  const Eigen::Matrix3d turn = rotation(Vec3(1, 1, 0), 0.16) * upright;
+  const double cut = 8;
   const Vec3 corner = turn * (-size / 2);
   const Vec3 center(-corner.x(), -corner.y(), -corner.z() - cut);
   Sample sample{"box_on_corner", {}};
@@ -98,16 +98,15 @@ Sample toyDinosaur() {
   return sample;
 }
 
-/// A ring on a flat foot, leaning out of its own plane.
+/// A long ring on a flat foot, leaning in its own plane.
 Sample leaningRing() {
-  const double tilt = 0.14;
-  const Eigen::Matrix3d turn = rotation(Vec3(-1, 0, 0), tilt);
-  const Implicit ring = moved(torus(26, 9), turn, turn * Vec3(0, 0, 36));
-  const Implicit foot = ellipsoid(Vec3(0, 0, 3), Vec3(16, 8, 7));
+  const Eigen::Matrix3d turn = rotation(Vec3(0, 1, 0), 0.2);
+  const Implicit ring = moved(chainLink(18, 9, 20), turn, turn * Vec3(0, 0, 42));
+  const Implicit foot = ellipsoid(Vec3(0, 0, 3), Vec3(12, 13, 9));
   Sample sample{"leaning_ring", {}};
   sample.problem.solid = smoothUnion(ring, foot, 8);
-  sample.problem.lower = Vec3(-40, -20, 0);
-  sample.problem.upper = Vec3(40, 34, 78);
+  sample.problem.lower = Vec3(-30, -20, 0);
+  sample.problem.upper = Vec3(64, 20, 88);
   sample.problem.vertexCount = 6000;
   return sample;
 }

@@ -205,17 +205,27 @@ Vec3 GroundedSurface::project(Vec3 p, Kind kind) const {
   return p;
 }
 
-/// Whether no face around `v` turns over when `v` moves; faces with `exceptFacesWith` do not count.
+/// Whether no face around `v` is turned over when `v` moves; faces with `exceptFacesWith` do not
+/// count.
 bool GroundedSurface::keepsOrientation(Vertex v, const Vec3& newPoint,
                                        Vertex exceptFacesWith) const {
   for (const Halfedge h : CGAL::halfedges_around_target(v, mesh_)) {
     const Vertex b = mesh_.target(mesh_.next(h));
     const Vertex c = mesh_.source(h);
-    if (b == exceptFacesWith || c == exceptFacesWith) continue;
-    const Vec3 pb = point(b), pc = point(c);
-    const Vec3 before = (pb - point(v)).cross(pc - point(v));
+    if (b == exceptFacesWith || c == exceptFacesWith)
+      continue;
+    const Vec3 pb = point(b);
+    const Vec3 pc = point(c);
+    // What the face was like before is no guide near the crease, where it may be turned over.
+    Vec3 outwards;
+    if (contact_[mesh_.face(h)])
+      outwards = -Vec3::UnitZ();
+    else if (std::min({newPoint.z(), pb.z(), pc.z()}) <= 0)
+      outwards = gradient(problem_.solid, (newPoint + pb + pc) / 3).normalized();
+    else
+      outwards = (pb - point(v)).cross(pc - point(v)).normalized();
     const Vec3 after = (pb - newPoint).cross(pc - newPoint);
-    if (after.dot(before) <= 0.3 * after.norm() * before.norm() ||
+    if (after.dot(outwards) <= 0.3 * after.norm() ||
         cosineOfSmallestAngle(newPoint, pb, pc) > 0.995)
       return false;
   }
@@ -235,7 +245,9 @@ void GroundedSurface::split(Edge e) {
     contact_[mesh_.face(diagonal)] = contact;
     contact_[mesh_.face(mesh_.opposite(diagonal))] = contact;
   }
-  mesh_.point(v) = toCgal(project(middle, kind(v)));
+  const Vec3 projected = project(middle, kind(v));
+  if (keepsOrientation(v, projected, SurfaceMesh::null_vertex()))
+    mesh_.point(v) = toCgal(projected);
 }
 
 void GroundedSurface::splitLongEdges(double edgeLength) {
