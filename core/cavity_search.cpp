@@ -111,7 +111,6 @@ CavityResult searchCavity(const CavityTask& task, const std::function<void(doubl
         inspect(result.inner, result.cavity.faces, result.outer, task.faces, task.wall);
     result.secondsInspection += inspection.seconds();
     progress(1.0 - 1.0 / (2.0 + round));
-    int ns = 0;
     if (result.inspection.isClean()) return result;
     tighten(task, result, neighbours, bounds, solid, round < kPatience);
   }
