@@ -19,8 +19,8 @@ inline Implicit ball(const Vec3& center, double radius) {
 Implicit roundCone(const Vec3& a, double radiusA, const Vec3& b, double radiusB);
 /// Box centred at the origin whose edges and corners are rounded by `radius`.
 Implicit roundedBox(const Vec3& size, double radius);
-/// A chain link about the y axis, centred at the origin: a torus cut in half and drawn apart along z
-/// by straight pieces of length `straight`.
+/// A chain link about the y axis, centred at the origin: a torus cut in half and drawn apart along
+/// z by straight pieces of length `straight`.
 Implicit chainLink(double majorRadius, double minorRadius, double straight);
 
 /// Union whose seam is blended twice differentiably over a width of about `blend`.

@@ -27,8 +27,8 @@ Sample boxOnCorner() {
   const Vec3 down = -size.normalized();
   const Eigen::Matrix3d upright =
       Eigen::Quaterniond::FromTwoVectors(down, -Vec3::UnitZ()).toRotationMatrix();
-  const Eigen::Matrix3d turn = rotation(Vec3(1, 1, 0), 0.16) * upright;
-  const double cut = 8;
+  const Eigen::Matrix3d turn = rotation(Vec3(-0.64, 0.77, 0), 0.12) * upright;
+  const double cut = 10;
   const Vec3 corner = turn * (-size / 2);
   const Vec3 center(-corner.x(), -corner.y(), -corner.z() - cut);
   Sample sample{"box_on_corner", {}};

@@ -212,8 +212,7 @@ bool GroundedSurface::keepsOrientation(Vertex v, const Vec3& newPoint,
   for (const Halfedge h : CGAL::halfedges_around_target(v, mesh_)) {
     const Vertex b = mesh_.target(mesh_.next(h));
     const Vertex c = mesh_.source(h);
-    if (b == exceptFacesWith || c == exceptFacesWith)
-      continue;
+    if (b == exceptFacesWith || c == exceptFacesWith) continue;
     const Vec3 pb = point(b);
     const Vec3 pc = point(c);
     // What the face was like before is no guide near the crease, where it may be turned over.
