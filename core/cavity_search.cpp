@@ -54,6 +54,16 @@ void tighten(const CavityTask& task, const CavityResult& result, const Neighbour
   bounds.upper = lipschitzBelow(task.vertices, neighbours, bounds.upper, kBoundSlope);
 }
 
+/// Holds the outer surface back where it folds; without patience it stays where it was.
+void calmOuter(const CavityTask& task, const CavityResult& result, const Neighbours& neighbours,
+               bool patient, OffsetBounds& bounds) {
+  for (const int v : result.inspection.outerCrossing) {
+    bounds.upper[v] = std::min(bounds.upper[v], patient ? kShrink * result.outerOffsets[v] : 0.0);
+  }
+  bounds.upper = lipschitzBelow(task.vertices, neighbours, bounds.upper, kBoundSlope);
+  bounds.lower = bounds.lower.cwiseMin(bounds.upper);
+}
+
 void addMarks(std::vector<char>& solid, const std::vector<char>& more) {
   for (std::size_t v = 0; v < solid.size(); ++v) solid[v] = solid[v] != 0 || more[v] != 0 ? 1 : 0;
 }
@@ -107,14 +117,17 @@ CavityResult searchCavity(const CavityTask& task, const std::function<void(doubl
     result.outer = task.outer ? task.deliverable(surfaces.outer) : task.vertices;
     result.innerOffsets = std::move(surfaces.innerOffsets);
     result.outerOffsets = std::move(surfaces.outerOffsets);
-    result.inspection =
-        inspect(result.inner, result.cavity.faces, result.outer, task.faces, task.wall);
+    result.inspection = inspect(result.inner, result.cavity.faces, result.outer, task.faces,
+                                task.wall, task.outer.has_value());
     result.secondsInspection += inspection.seconds();
     progress(1.0 - 1.0 / (2.0 + round));
-    if (result.inspection.isClean()) return result;
+    if (result.inspection.isClean()) {
+      if (result.inspection.components > 0) result.status = CavityStatus::Found;
+      return result;
+    }
     tighten(task, result, neighbours, bounds, solid, round < kPatience);
+    if (model.outer) calmOuter(task, result, neighbours, round < kPatience, *model.outer);
   }
-  result.cavity.faces.resize(0, 3);
   result.stopReason = "no cavity passes inspection";
   return result;
 }

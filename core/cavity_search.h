@@ -31,7 +31,14 @@ struct CavityTask {
   std::function<Points(const Points&)> deliverable = {};
 };
 
+enum class CavityStatus {
+  Found,  ///< a cavity that passed inspection
+  NoRoom, ///< the wall leaves no room for any
+  NoGain, ///< there is one, but the solid body serves the goal at least as well
+};
+
 struct CavityResult {
+  CavityStatus status = CavityStatus::NoRoom;
   /// Delivered positions in the working frame, n×3 each.
   Points inner, outer;
   CavitySurface cavity; ///< no faces: nothing can be hollowed

@@ -73,6 +73,16 @@ public:
     return v.offset < kSteadyOffset && v.tilt < kSteadyTilt && (largest || smallest);
   }
 
+  std::string worstViolation(const Moments& massMoments) const override {
+    const Vector values = equalities(massMoments).values;
+    const double offAxis = values.head<2>().norm();
+    const double product = values.tail<2>().norm();
+    return offAxis >= product
+               ? "the centre of mass lies " + toString(offAxis * lengthUnit_) + " off the axis"
+               : "the products of inertia I_xz, I_yz reach " + toString(product) +
+                     " of the solid's I_zz";
+  }
+
   void describe(const Moments& massMoments, const std::string& suffix,
                 Report& report) const override {
     const Verdict v = verdict(massMoments);

@@ -22,8 +22,9 @@ std::vector<Vec2> inscribed(const std::vector<Vec2>& polygon) {
 
 class StandGoal final : public Goal {
 public:
-  StandGoal(ContactArea area, const Weights& weights)
-      : area_(std::move(area)), corners_(inscribed(area_.polygon)), weight_(weights.centerOfMass) {}
+  StandGoal(ContactArea area, const Weights& weights, double lengthUnit)
+      : area_(std::move(area)), corners_(inscribed(area_.polygon)), weight_(weights.centerOfMass),
+        lengthUnit_(lengthUnit) {}
 
   GoalValue objective(const Moments& massMoments) const override {
     const MassProperties body = massProperties(massMoments);
@@ -76,6 +77,12 @@ public:
 
   bool isReached(const Moments& massMoments) const override { return angle(massMoments) > 0.0; }
 
+  std::string worstViolation(const Moments& massMoments) const override {
+    return "the centre of mass lies " +
+           toString(largestViolation(*this, massMoments) * lengthUnit_) +
+           " outside of the contact area less its safety margin of a tenth";
+  }
+
   void describe(const Moments& massMoments, const std::string& suffix,
                 Report& report) const override {
     report.add("tip_angle_" + suffix, angle(massMoments));
@@ -90,12 +97,14 @@ private:
   ContactArea area_;
   std::vector<Vec2> corners_;
   double weight_;
+  double lengthUnit_;
 };
 
 } // namespace
 
-std::unique_ptr<Goal> makeStandGoal(const ContactArea& area, const Weights& weights) {
-  return std::make_unique<StandGoal>(area, weights);
+std::unique_ptr<Goal> makeStandGoal(const ContactArea& area, const Weights& weights,
+                                    double lengthUnit) {
+  return std::make_unique<StandGoal>(area, weights, lengthUnit);
 }
 
 } // namespace massprops

@@ -7,6 +7,7 @@
 #include "core/report.h"
 
 #include <memory>
+#include <string>
 
 namespace massprops {
 
@@ -39,18 +40,22 @@ public:
   virtual bool usesInertia() const = 0;
   /// Whether the body does what the goal asks for, constraint margins aside.
   virtual bool isReached(const Moments& massMoments) const = 0;
+  /// The constraint that is violated most, in words and in the model's units; of use only when
+  /// `largestViolation` is not 0.
+  virtual std::string worstViolation(const Moments& massMoments) const = 0;
   /// Adds the goal's own keys with `suffix` ("before", "after") to the report.
   virtual void describe(const Moments& massMoments, const std::string& suffix,
                         Report& report) const = 0;
 };
 
 /// Stands on its contact area: minimises c_x² + c_y² + c_z over the area's centre, the centre of
-/// mass kept above the area, shrunk by a tenth. [PWLSH13, Sec. 4; MAB15, Sec. 5]
-std::unique_ptr<Goal> makeStandGoal(const ContactArea& area, const Weights& weights);
+/// mass kept above the area, shrunk by a tenth. `lengthUnit`: model units per working unit, for the
+/// report. [PWLSH13, Sec. 4; MAB15, Sec. 5]
+std::unique_ptr<Goal> makeStandGoal(const ContactArea& area, const Weights& weights,
+                                    double lengthUnit);
 
 /// Spins about the vertical through its contact point: minimises (m/m_solid) c_z +
-/// (I_a² + I_b²)/I_zz², centre of mass on the axis, the axis a principal one. `lengthUnit`: model
-/// units per working unit, for the report.
+/// (I_a² + I_b²)/I_zz², centre of mass on the axis, the axis a principal one.
 /// [BWBSH14, Sec. 4; MAB15, Sec. 5]
 std::unique_ptr<Goal> makeSpinGoal(const Moments& solidMassMoments, const Weights& weights,
                                    double lengthUnit);

@@ -50,11 +50,19 @@ std::vector<Faces> componentsOf(Eigen::Index vertexCount, const Faces& faces) {
 } // namespace
 
 Inspection inspect(const Points& inner, const Faces& innerFaces, const Points& outer,
-                   const Faces& outerFaces, double wall) {
+                   const Faces& outerFaces, double wall, bool outerMoved) {
   Inspection inspection;
   std::set<int> crossing;
   for (const int f : crossingFaces(inner, innerFaces, outer, outerFaces)) {
     for (const int v : innerFaces.row(f)) crossing.insert(v);
+  }
+
+  if (outerMoved) {
+    std::set<int> folded;
+    for (const int f : selfIntersectingFaces(outer, outerFaces)) {
+      for (const int v : outerFaces.row(f)) folded.insert(v);
+    }
+    inspection.outerCrossing.assign(folded.begin(), folded.end());
   }
 
   // Without crossings a component lies inside of another surface with all its points or with none.

@@ -14,17 +14,19 @@ struct Inspection {
   /// Vertices of faces that cross another face, or of a component that is not inside of the outer
   /// surface, is turned inside out or lies in another component; ascending.
   std::vector<int> crossing;
+  /// Vertices of faces of a moved outer surface that cross each other, ascending.
+  std::vector<int> outerCrossing;
   /// Vertices whose wall is too thin by more than 0.5 %, ascending.
   std::vector<int> thin;
   int components = 0;
 
-  bool isClean() const { return crossing.empty() && thin.empty(); }
+  bool isClean() const { return crossing.empty() && outerCrossing.empty() && thin.empty(); }
 };
 
 /// Exact predicates for crossings and containment, double precision for distances.
 /// `inner`, `outer`: vertex positions (inner ones outward oriented as a body of its own);
-/// `wall`: wanted distance, same unit.
+/// `wall`: wanted distance, same unit. `outerMoved`: whether the outer surface may cross itself.
 Inspection inspect(const Points& inner, const Faces& innerFaces, const Points& outer,
-                   const Faces& outerFaces, double wall);
+                   const Faces& outerFaces, double wall, bool outerMoved);
 
 } // namespace massprops

@@ -47,4 +47,7 @@ struct Options {
   std::function<Points(const Points&)> representable;
 };
 
+/// \throw InvalidInput when an option is absurd in itself or for a model of that size
+void requireSensible(const Options& options, Eigen::Index vertexCount, double diagonal);
+
 } // namespace massprops

@@ -1,0 +1,124 @@
+#include "core/hollowing_report.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace massprops {
+namespace {
+
+/// Constraints hold when they are violated by no more than this share of the model's size.
+constexpr double kFeasibility = 1e-6;
+
+/// The body that a search ends with, measured on its triangles.
+struct Body {
+  Moments mass; ///< working frame, material of density 1
+  double volume = 0.0;
+  double objective = 0.0;
+  double violation = 0.0;
+};
+
+Body solidBody(const CavityTask& task) {
+  return {
+      task.solidMoments, task.solidMoments[0],
+      objectiveValue(task.goal, task.weights, task.solidMoments, 1.0, task.L, {}, task.mass, {}),
+      largestViolation(task.goal, task.solidMoments)};
+}
+
+Body hollowBody(const CavityTask& task, const CavityResult& cavity) {
+  const Moments inner = moments(cavity.inner, cavity.cavity.faces);
+  const Moments outer = moments(cavity.outer, task.faces);
+  Body body;
+  body.mass = shellMoments(outer, inner, 1.0, task.fillDensity);
+  body.volume = outer[0] - inner[0];
+  body.objective =
+      objectiveValue(task.goal, task.weights, body.mass, body.volume / task.solidMoments[0], task.L,
+                     cavity.innerOffsets, task.mass, cavity.outerOffsets);
+  body.violation = largestViolation(task.goal, body.mass);
+  return body;
+}
+
+/// A body in the model's own coordinates and in grams.
+MassProperties inModel(const Moments& massMoments, const Frame& frame, double density) {
+  const MassProperties working = massProperties(massMoments);
+  const double grams = density * std::pow(frame.length, 3) / 1000.0;
+  MassProperties body;
+  body.mass = working.mass * grams;
+  body.centerOfMass =
+      frame.rotation.transpose() * working.centerOfMass * frame.length + frame.origin;
+  body.inertiaTensor = frame.rotation.transpose() * working.inertiaTensor * frame.rotation * grams *
+                       frame.length * frame.length;
+  return body;
+}
+
+std::string message(const CavityTask& task, const CavityResult& cavity, const Body& before,
+                    const Body& after) {
+  std::string sentence =
+      task.goal.isReached(after.mass) ? "The goal is reached" : "The goal is missed";
+  if (cavity.status == CavityStatus::NoRoom) {
+    return sentence + " by the solid model; nothing can be hollowed at this wall: lower "
+                      "inner_lower_bound.";
+  }
+  if (cavity.status == CavityStatus::NoGain) {
+    return sentence + " by the solid model, and no cavity with this wall was found to serve it "
+                      "better.";
+  }
+  if (task.goal.isReached(before.mass)) sentence += " (by the solid model too)";
+  return after.violation <= kFeasibility ? sentence + "; all constraints hold."
+                                         : sentence + ": with the best cavity found " +
+                                               task.goal.worstViolation(after.mass) + ".";
+}
+
+} // namespace
+
+bool isBetterThanSolid(const CavityTask& task, const CavityResult& cavity) {
+  const Body solid = solidBody(task);
+  const Body hollow = hollowBody(task, cavity);
+  const bool constrained = task.weights.constraints > 0.0;
+  if (constrained && std::max(solid.violation, hollow.violation) > kFeasibility) {
+    return hollow.violation < solid.violation;
+  }
+  return hollow.objective < solid.objective;
+}
+
+Report hollowingReport(const Workpiece& piece, const CavityTask& task, const CavityResult& cavity,
+                       GoalKind kind, double density, const StageTimes& times) {
+  const Body before = solidBody(task);
+  const bool hollow = cavity.status == CavityStatus::Found;
+  const Body after = hollow ? hollowBody(task, cavity) : before;
+  const MassProperties modelBefore = inModel(before.mass, piece.frame, density);
+  const MassProperties modelAfter = inModel(after.mass, piece.frame, density);
+  const double unitVolume = std::pow(piece.frame.length, 3);
+
+  Report report;
+  report.add("goal", std::string(kind == GoalKind::Stand ? "Stand" : "Spin"));
+  report.add("solved", after.violation <= kFeasibility);
+  report.add("message", message(task, cavity, before, after));
+  report.add("objective_before", before.objective);
+  report.add("objective_after", after.objective);
+  report.add("max_constraint_violation", after.violation);
+  report.add("volume_before", before.volume * unitVolume);
+  report.add("volume_after", after.volume * unitVolume);
+  report.add("mass_before", modelBefore.mass);
+  report.add("mass_after", modelAfter.mass);
+  report.add("center_of_mass_before", modelBefore.centerOfMass);
+  report.add("center_of_mass_after", modelAfter.centerOfMass);
+  report.add("inertia_tensor_before", modelBefore.inertiaTensor);
+  report.add("inertia_tensor_after", modelAfter.inertiaTensor);
+  task.goal.describe(before.mass, "before", report);
+  task.goal.describe(after.mass, "after", report);
+  report.add("min_wall", hollow ? cavity.inspection.leastWall * piece.frame.length : 0.0);
+  report.add("cavity_components", hollow ? cavity.inspection.components : 0);
+  report.add("solid_vertices", hollow ? static_cast<int>(std::count(cavity.cavity.solid.begin(),
+                                                                    cavity.cavity.solid.end(), 1))
+                                      : static_cast<int>(piece.vertices.rows()));
+  report.add("stop_reason", cavity.stopReason);
+  report.add("rounds", cavity.rounds);
+  report.add("evaluations", cavity.evaluations);
+  report.add("seconds_skeleton", times.skeleton);
+  report.add("seconds_basis", times.basis);
+  report.add("seconds_optimization", cavity.secondsOptimization);
+  report.add("seconds_inspection", cavity.secondsInspection);
+  return report;
+}
+
+} // namespace massprops

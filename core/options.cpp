@@ -1,0 +1,55 @@
+#include "core/options.h"
+
+#include <cmath>
+#include <string>
+
+namespace massprops {
+
+void requireSensible(const Options& options, Eigen::Index vertexCount, double diagonal) {
+  const auto require = [](bool holds, const std::string& sentence) {
+    if (!holds) throw InvalidInput(sentence);
+  };
+  const auto finite = [](double value) { return std::isfinite(value); };
+  require(options.basisSize >= 1, "basis_k is " + std::to_string(options.basisSize) +
+                                      ": give at least 1; 36 suits most models.");
+  require(options.basisSize < vertexCount,
+          "basis_k is " + std::to_string(options.basisSize) + ", but this model has only " +
+              std::to_string(vertexCount) +
+              " vertices: lower basis_k below that, or refine the model with Remeshing > "
+              "Subdivision Surfaces: Midpoint.");
+  for (const std::optional<double>& radius : {options.radiusX, options.radiusY}) {
+    require(!radius || (finite(*radius) && *radius > 0.0),
+            "radius_x and radius_y must be positive, or 0 to take them from the model.");
+  }
+  require(options.radiusX.has_value() == options.radiusY.has_value(),
+          "Give both radius_x and radius_y, or leave both 0 to take them from the model.");
+  require(!options.innerLowerBound ||
+              (finite(*options.innerLowerBound) && *options.innerLowerBound > 0.0),
+          "inner_lower_bound, the minimum wall, must be greater than 0.");
+  require(finite(options.innerUpperBound) && options.innerUpperBound > 0.0 &&
+              options.innerUpperBound <= 1.0,
+          "inner_upper_bound is a factor on the distance to the skeleton: give a value above 0 and "
+          "at most 1.");
+  require(!options.innerLowerBound || *options.innerLowerBound < options.innerUpperBound * diagonal,
+          "inner_lower_bound lies above inner_upper_bound for every point of this model: lower the "
+          "minimum wall.");
+  require(finite(options.outerLowerBound) && finite(options.outerUpperBound) &&
+              options.outerLowerBound >= 0.0 && options.outerUpperBound >= 0.0,
+          "outer_lower_bound and outer_upper_bound must be 0 or positive: the outer surface only "
+          "moves outwards.");
+  require(options.outerLowerBound <= options.outerUpperBound,
+          "outer_lower_bound is greater than outer_upper_bound: swap them.");
+  require(options.outerUpperBound <= 0.5 * diagonal,
+          "outer_upper_bound is more than half of the model's diagonal: lower it.");
+  const Weights& w = options.weights;
+  for (const double weight :
+       {w.volume, w.centerOfMass, w.inertia, w.smoothness, w.constraints, w.outer}) {
+    require(finite(weight) && weight >= 0.0, "opt_weight_1 to opt_weight_6 must be 0 or positive.");
+  }
+  require(finite(options.density) && options.density > 0.0,
+          "density must be greater than 0 g/cm³; PLA has 1.24.");
+  require(finite(options.fillDensity) && options.fillDensity >= 0.0,
+          "fill_density must be 0 (an empty cavity) or positive.");
+}
+
+} // namespace massprops

@@ -1,0 +1,41 @@
+#include "core/workpiece.h"
+
+#include "core/validity.h"
+
+#include <string>
+
+namespace massprops {
+namespace {
+
+/// A wall that common printers print and that carries a hand-sized model.
+constexpr double kDefaultWall = 0.01;
+
+void requireNoSelfIntersection(const Workpiece& piece) {
+  const std::size_t crossing = selfIntersectingFaces(piece.vertices, piece.faces).size();
+  if (crossing > 0) {
+    throw InvalidInput("The surface crosses itself: " + std::to_string(crossing) +
+                       " faces intersect others. Use Selection > Select Self Intersecting Faces, "
+                       "delete them and use Remeshing > Close Holes, then run again.");
+  }
+}
+
+} // namespace
+
+Workpiece makeWorkpiece(const Solid& solid, const Options& options) {
+  Workpiece piece;
+  piece.frame.rotation = rotationToUp(options.upAxis);
+  const Points upright = solid.vertices() * piece.frame.rotation.transpose();
+  std::optional<Vec2> radii;
+  if (options.radiusX && options.radiusY) radii = Vec2(*options.radiusX, *options.radiusY);
+  const GroundContact contact = groundContact(upright, radii);
+  piece.frame.origin = piece.frame.rotation.transpose() * contact.centre;
+  piece.frame.length = solid.diagonal();
+  piece.contact = scaled(contact.area, solid.diagonal());
+  piece.vertices = snapped(toWorking(piece.frame, solid.vertices()));
+  piece.wall = options.innerLowerBound.value_or(kDefaultWall * solid.diagonal()) / solid.diagonal();
+  piece.faces = solid.faces();
+  requireNoSelfIntersection(piece);
+  return piece;
+}
+
+} // namespace massprops

@@ -1,0 +1,22 @@
+// The model in the working frame, standing on its contact area.
+#pragma once
+
+#include "core/contact.h"
+#include "core/frame.h"
+#include "core/options.h"
+#include "core/solid.h"
+
+namespace massprops {
+
+struct Workpiece {
+  Frame frame;
+  Points vertices;     ///< n×3, working frame
+  Faces faces;         ///< outward
+  ContactArea contact; ///< working lengths
+  double wall = 0.0;   ///< working length
+};
+
+/// \throw InvalidInput when the model has nothing to stand on or crosses itself
+Workpiece makeWorkpiece(const Solid& solid, const Options& options);
+
+} // namespace massprops
