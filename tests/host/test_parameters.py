@@ -87,13 +87,13 @@ class ParametersTest(HostTest):
         self.assertLess(thin["min_wall"], 3)
 
     def test_inner_upper_bound_limits_the_depth(self):
-        _, (near, _) = self.top(inner_upper_bound=0.6)
+        _, (near, _) = self.top(inner_upper_bound=0.4)
         _, (far, _) = self.top(inner_upper_bound=0.9)
 
         def depth(inner):
             return max(np.linalg.norm(self.outer[0] - y, axis=1).min() for y in inner)
 
-        self.assertGreater(depth(far), 1.2 * depth(near))
+        self.assertGreater(depth(far), 1.3 * depth(near))
 
     def test_outer_bounds_are_the_range_of_the_displacement(self):
         _, (moved, faces), _ = self.both_surfaces(outer_lower_bound=0.3, outer_upper_bound=0.9)
