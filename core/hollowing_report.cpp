@@ -91,7 +91,7 @@ Report hollowingReport(const Workpiece& piece, const CavityTask& task, const Cav
 
   Report report;
   report.add("goal", std::string(kind == GoalKind::Stand ? "Stand" : "Spin"));
-  report.add("solved", after.violation <= kFeasibility);
+  report.add("solved", after.violation <= kFeasibility && task.goal.isReached(after.mass));
   report.add("message", message(task, cavity, before, after));
   report.add("objective_before", before.objective);
   report.add("objective_after", after.objective);

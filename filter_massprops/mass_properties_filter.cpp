@@ -243,7 +243,7 @@ ReturnedValues MassPropertiesFilter::applyFilter(const QAction*,
 }
 
 void MassPropertiesFilter::write(const std::string& line) {
-  log(line.c_str());
+  log("%s", line.c_str());
 }
 
 #else
@@ -273,7 +273,7 @@ bool MassPropertiesFilter::applyFilter(QAction*, MeshDocument& document,
 }
 
 void MassPropertiesFilter::write(const std::string& line) {
-  Log(line.c_str());
+  Log("%s", line.c_str());
 }
 
 #endif
@@ -305,10 +305,6 @@ ReturnedValues MassPropertiesFilter::optimize(MeshDocument& document,
     write(key + " = " + toString(value));
     const QVariant returned = std::visit(ToVariant{}, value);
     if (returned.isValid()) values[key] = returned;
-  }
-  if (result.inner.faces.rows() == 0) {
-    write("Nothing can be hollowed at this wall thickness: no layer was added for a cavity. A "
-          "smaller minimum wall thickness leaves more room.");
   }
   return values;
 }
