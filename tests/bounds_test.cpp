@@ -182,7 +182,9 @@ TEST(OuterBounds, KeepTheModelAboveTheGroundAndOnItsFeet) {
   for (Eigen::Index i = 0; i < n; ++i) {
     const double height = mesh.vertices(i, 2) + bounds.upper[i] * field.directions(i, 2);
     EXPECT_GE(height, 0.0);
-    if (mesh.vertices(i, 2) == 0.0) EXPECT_EQ(bounds.upper[i], 0.0);
+    if (mesh.vertices(i, 2) == 0.0) {
+      EXPECT_EQ(bounds.upper[i], 0.0);
+    }
     EXPECT_LE(bounds.lower[i], bounds.upper[i]);
     EXPECT_LE(bounds.upper[i], 0.1);
   }

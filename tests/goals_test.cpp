@@ -121,8 +121,12 @@ TEST(StandGoal, HasConstraintsThatImplyStandingWithAMargin) {
       const Moments m = bodyAt({0.6 * random(), 0.6 * random(), 0.5 + 0.4 * random()});
       const bool holds = goal->inequalities(m).values.maxCoeff() <= 0.0;
       feasible += holds ? 1 : 0;
-      if (holds) EXPECT_GT(number(described(*goal, m), "tip_angle_after"), 0.0);
-      if (!goal->isReached(m)) EXPECT_GT(goal->inequalities(m).values.maxCoeff(), 0.0);
+      if (holds) {
+        EXPECT_GT(number(described(*goal, m), "tip_angle_after"), 0.0);
+      }
+      if (!goal->isReached(m)) {
+        EXPECT_GT(goal->inequalities(m).values.maxCoeff(), 0.0);
+      }
     }
     EXPECT_GT(feasible, 20); // else nothing was tested
     EXPECT_LT(feasible, 280);

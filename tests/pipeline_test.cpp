@@ -1,0 +1,689 @@
+// The whole filter: what it promises about every result, measured with other means than its own.
+#include "core/pipeline.h"
+
+#include "checks.h"
+#include "shapes.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace massprops::testing {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kDegrees = 180.0 / kPi;
+
+double number(const Result& result, const std::string& key) {
+  return std::get<double>(result.report.at(key));
+}
+bool truth(const Result& result, const std::string& key) {
+  return std::get<bool>(result.report.at(key));
+}
+int integer(const Result& result, const std::string& key) {
+  return std::get<int>(result.report.at(key));
+}
+std::string text(const Result& result, const std::string& key) {
+  return std::get<std::string>(result.report.at(key));
+}
+Vec3 point(const Result& result, const std::string& key) {
+  return std::get<Vec3>(result.report.at(key));
+}
+Mat3 tensor(const Result& result, const std::string& key) {
+  return std::get<Mat3>(result.report.at(key));
+}
+
+double diagonal(const TriangleMesh& mesh) {
+  return (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).norm();
+}
+
+/// Stands on its base as a hollow body only: its centre leans 0.1 beyond the border of its foot.
+TriangleMesh leaningPillar() {
+  return transformed(roundedBox({1, 1, 2}, 0.15, 6, 2), shear(0.45));
+}
+
+/// No cavity can bring its centre back above its foot.
+TriangleMesh hopelessPillar() {
+  return transformed(roundedBox({1, 1, 2}, 0.15, 6, 2), shear(1.5));
+}
+
+Options stand() {
+  return {};
+}
+
+Options spin() {
+  Options options;
+  options.goal = GoalKind::Spin;
+  return options;
+}
+
+struct Case {
+  std::string name;
+  TriangleMesh model;
+  Options options;
+};
+
+std::vector<Case> cases() {
+  Options moving = stand();
+  moving.outerUpperBound = 0.1;
+  Options filled = stand();
+  filled.fillDensity = 1.0;
+  filled.density = 2.7;
+  Options sideways = stand();
+  sideways.upAxis = UpAxis::MinusY;
+  const Mat3 toMinusY = rotation(Vec3::UnitX(), kPi / 2); // takes +z to −y
+  return {{"pillar", leaningPillar(), stand()},
+          {"figure", figure(3), stand()},
+          {"ring", transformed(torus(2, 0.7, 48, 24), rotation(Vec3::UnitX(), 0.0)), stand()},
+          {"top", leaningTop(0.1, 9), spin()},
+          {"moving outer surface", leaningPillar(), moving},
+          {"filled", leaningPillar(), filled},
+          {"far away and sideways", transformed(leaningPillar(), 30 * toMinusY, {1000, -2000, 500}),
+           sideways},
+          {"hopeless", hopelessPillar(), stand()}};
+}
+
+/// Each case is computed once for all tests.
+const Result& resultOf(const Case& c) {
+  static std::map<std::string, Result> results;
+  const auto known = results.find(c.name);
+  if (known != results.end()) return known->second;
+  return results.emplace(c.name, optimizeMassProperties(c.model, c.options)).first->second;
+}
+
+const TriangleMesh& outerOf(const Case& c) {
+  const Result& result = resultOf(c);
+  return result.outer ? *result.outer : c.model;
+}
+
+std::string caseName(const ::testing::TestParamInfo<Case>& info) {
+  std::string name = info.param.name;
+  std::replace_if(
+      name.begin(), name.end(), [](char ch) { return ch == ' '; }, '_');
+  return name;
+}
+
+void PrintTo(const Case& c, std::ostream* os) {
+  *os << c.name;
+}
+
+class EveryResult : public ::testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(Pipeline, EveryResult, ::testing::ValuesIn(cases()), caseName);
+
+// ---------------------------------------------------------------- the cavity
+
+TEST_P(EveryResult, HasACavityThatIsClosedAndWithoutSelfIntersections) {
+  const TriangleMesh& inner = resultOf(GetParam()).inner;
+  ASSERT_GT(inner.faces.rows(), 0);
+  EXPECT_TRUE(inner.vertices.allFinite());
+  EXPECT_TRUE(isClosedAndOriented(inner));
+  EXPECT_EQ(intersectingPairs(inner), 0U);
+}
+
+TEST_P(EveryResult, HasItsCavityInsideOfTheOuterSurface) {
+  const TriangleMesh& inner = resultOf(GetParam()).inner;
+  const TriangleMesh& outer = outerOf(GetParam());
+  EXPECT_EQ(intersectingPairs(outer), 0U);
+  EXPECT_EQ(intersectingPairs(inner, outer), 0U);
+  EXPECT_TRUE(isInside(inner, outer));
+}
+
+TEST_P(EveryResult, KeepsTheWallAndReportsTheLeast) {
+  const Case& c = GetParam();
+  const Result& result = resultOf(c);
+  const double wall = leastDistance(result.inner, outerOf(c));
+  const double wanted = c.options.innerLowerBound.value_or(0.01 * diagonal(c.model));
+  EXPECT_GE(wall, 0.99 * wanted); // the promised tolerance of 1 %
+  EXPECT_NEAR(number(result, "min_wall"), wall, 1e-9 * diagonal(c.model));
+}
+
+TEST_P(EveryResult, PointsItsNormalsIntoTheCavity) {
+  // Outer and inner surface together bound the material: around a point of the cavity they wind
+  // 1 − 1 times, around a point of the wall once.
+  const Case& c = GetParam();
+  const Result& result = resultOf(c);
+  EXPECT_LT(quadratureMoments(result.inner)[0], 0.0);
+  const TriangleMesh& outer = outerOf(c);
+  const TriangleMesh shell = joined(outer, result.inner);
+  for (Eigen::Index f = 0; f < outer.faces.rows(); f += outer.faces.rows() / 10) {
+    // Below the middle of an outer face by a quarter of the wall, and above it.
+    const Vec3 a = outer.vertices.row(outer.faces(f, 0)).transpose();
+    const Vec3 b = outer.vertices.row(outer.faces(f, 1)).transpose();
+    const Vec3 d = outer.vertices.row(outer.faces(f, 2)).transpose();
+    const Vec3 step = 0.25 * number(result, "min_wall") * (b - a).cross(d - a).normalized();
+    EXPECT_NEAR(windingNumber(shell, (a + b + d) / 3 - step), 1.0, 1e-6);
+    EXPECT_NEAR(windingNumber(shell, (a + b + d) / 3 + step), 0.0, 1e-6);
+  }
+}
+
+// ---------------------------------------------------------------- the report
+
+/// Mass moments in grams about the model's origin shifted to `origin`.
+Eigen::Matrix<double, 10, 1> massMomentsOf(const Case& c, const Vec3& origin, bool before) {
+  const auto about = [&](const TriangleMesh& mesh) {
+    return quadratureMoments(transformed(mesh, Mat3::Identity(), -origin));
+  };
+  if (before) return c.options.density / 1000 * about(c.model);
+  const Result& result = resultOf(c);
+  const auto inner = about(result.inner); // negative: its normals point into the cavity
+  return (c.options.density * (about(outerOf(c)) + inner) - c.options.fillDensity * inner) / 1000;
+}
+
+TEST_P(EveryResult, ReportsTheMassPropertiesOfItsTriangles) {
+  const Case& c = GetParam();
+  const Result& result = resultOf(c);
+  const Vec3 origin = c.model.vertices.colwise().mean().transpose();
+  const double size = diagonal(c.model);
+  for (const bool before : {true, false}) {
+    const std::string suffix = before ? "_before" : "_after";
+    const Body body = bodyOf(massMomentsOf(c, origin, before));
+    // The model's coordinates are used with 2⁻³² of the diagonal.
+    const double relative = 1e-8;
+    EXPECT_NEAR(number(result, "mass" + suffix), body.mass, relative * body.mass);
+    EXPECT_LT((point(result, "center_of_mass" + suffix) - origin - body.centre).norm(),
+              relative * size);
+    EXPECT_LT((tensor(result, "inertia_tensor" + suffix) - body.inertia).norm(),
+              relative * body.inertia.norm());
+  }
+  const double volumeBefore = quadratureMoments(c.model)[0];
+  const double volumeAfter = quadratureMoments(outerOf(c))[0] + quadratureMoments(result.inner)[0];
+  // Far from the origin the check itself loses digits.
+  EXPECT_NEAR(number(result, "volume_before") / volumeBefore, 1.0, 1e-7);
+  EXPECT_NEAR(number(result, "volume_after") / volumeAfter, 1.0, 1e-7);
+}
+
+/// Rotation of the model's up axis to z, for the axes that the cases use.
+Mat3 upright(const Options& options) {
+  Mat3 R = Mat3::Identity();
+  if (options.upAxis == UpAxis::MinusY) R << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  return R;
+}
+
+/// Upright vertices within 1e-4 of the diagonal of the ground.
+std::vector<Vec2> groundPoints(const Case& c) {
+  const Points x = c.model.vertices * upright(c.options).transpose();
+  const double ground = x.col(2).minCoeff() + 1e-4 * diagonal(c.model);
+  std::vector<Vec2> points;
+  for (Eigen::Index v = 0; v < x.rows(); ++v) {
+    if (x(v, 2) <= ground) points.emplace_back(x(v, 0), x(v, 1));
+  }
+  return points;
+}
+
+double tippingAngleOf(const Case& c, const Vec3& centreOfMass) {
+  const Vec3 centre = upright(c.options) * centreOfMass;
+  const double height =
+      centre.z() - (c.model.vertices * upright(c.options).transpose()).col(2).minCoeff();
+  const std::vector<Vec2> ground = groundPoints(c);
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 36000; ++i) {
+    const Vec2 u(std::cos(2 * kPi * i / 36000), std::sin(2 * kPi * i / 36000));
+    double farthest = -std::numeric_limits<double>::infinity();
+    for (const Vec2& p : ground) farthest = std::max(farthest, u.dot(p));
+    least = std::min(least, std::atan2(farthest - u.dot(centre.head<2>()), height));
+  }
+  return least * kDegrees;
+}
+
+TEST_P(EveryResult, ReportsTheVerdictOfItsTriangles) {
+  const Case& c = GetParam();
+  const Result& result = resultOf(c);
+  for (const bool before : {true, false}) {
+    const std::string suffix = before ? "_before" : "_after";
+    const Vec3 origin = c.model.vertices.colwise().mean().transpose();
+    const Body body = bodyOf(massMomentsOf(c, origin, before));
+    if (c.options.goal == GoalKind::Stand) {
+      const double angle = tippingAngleOf(c, body.centre + origin);
+      // 36,000 directions are 0.01° apart.
+      EXPECT_NEAR(number(result, "tip_angle" + suffix), angle, 0.01);
+      EXPECT_EQ(truth(result, "stands" + suffix), angle > 0.0);
+    } else {
+      Vec2 pivot = Vec2::Zero();
+      const std::vector<Vec2> ground = groundPoints(c);
+      for (const Vec2& p : ground) pivot += p / static_cast<double>(ground.size());
+      const Vec2 offset = (body.centre + origin).head<2>() - pivot;
+      EXPECT_NEAR(number(result, "axis_offset" + suffix), offset.norm(), 1e-7 * diagonal(c.model));
+      const Eigen::SelfAdjointEigenSolver<Mat3> principal(body.inertia);
+      const double upwards = principal.eigenvectors().row(2).cwiseAbs().maxCoeff();
+      EXPECT_NEAR(number(result, "axis_tilt" + suffix),
+                  std::acos(std::min(1.0, upwards)) * kDegrees,
+                  1e-5); // acos near 1 keeps half of the digits
+      const double xx = body.inertia(0, 0);
+      const double yy = body.inertia(1, 1);
+      const double xy = body.inertia(0, 1);
+      const double mean = (xx + yy) / 2;
+      const double spread = std::hypot((xx - yy) / 2, xy);
+      EXPECT_NEAR(number(result, "moment_ratio_a" + suffix), body.inertia(2, 2) / (mean + spread),
+                  1e-7);
+      EXPECT_NEAR(number(result, "moment_ratio_b" + suffix), body.inertia(2, 2) / (mean - spread),
+                  1e-7);
+    }
+  }
+}
+
+TEST_P(EveryResult, SaysSolvedOnlyIfTheVerdictIsPositive) {
+  const Case& c = GetParam();
+  const Result& result = resultOf(c);
+  if (!truth(result, "solved")) return;
+  if (c.options.goal == GoalKind::Stand) {
+    EXPECT_GT(number(result, "tip_angle_after"), 0.0);
+  } else {
+    EXPECT_LT(number(result, "axis_tilt_after"), 0.5);
+    EXPECT_LT(number(result, "axis_offset_after"), 1e-3 * diagonal(c.model));
+  }
+}
+
+TEST_P(EveryResult, IsNeverWorseThanTheSolid) {
+  const Result& result = resultOf(GetParam());
+  EXPECT_LT(number(result, "objective_after"), number(result, "objective_before"));
+  EXPECT_GT(number(result, "volume_after"), 0.0);
+}
+
+TEST_P(EveryResult, TellsHowItCameAbout) {
+  const Result& result = resultOf(GetParam());
+  EXPECT_FALSE(text(result, "message").empty());
+  EXPECT_FALSE(text(result, "stop_reason").empty());
+  EXPECT_GT(integer(result, "evaluations"), 0);
+  const double parts = number(result, "seconds_skeleton") + number(result, "seconds_basis") +
+                       number(result, "seconds_optimization");
+  EXPECT_GE(number(result, "seconds_total"), parts);
+}
+
+// ---------------------------------------------------------------- the goals
+
+const Case& caseNamed(const std::string& name) {
+  static const std::vector<Case> all = cases();
+  return *std::find_if(all.begin(), all.end(), [&](const Case& c) { return c.name == name; });
+}
+
+TEST(Pipeline, MakesALeaningPillarStand) {
+  const Result& result = resultOf(caseNamed("pillar"));
+  EXPECT_FALSE(truth(result, "stands_before"));
+  EXPECT_TRUE(truth(result, "stands_after"));
+  EXPECT_TRUE(truth(result, "solved"));
+}
+
+TEST(Pipeline, MakesALeaningTopSpin) {
+  const Result& result = resultOf(caseNamed("top"));
+  EXPECT_GT(number(result, "axis_tilt_before"), 3.0);
+  EXPECT_LT(number(result, "axis_tilt_after"), 0.1);
+  EXPECT_TRUE(truth(result, "solved")) << text(result, "message");
+}
+
+TEST(Pipeline, SpinsOnAPoint) {
+  // The pivot is one vertex: Spin needs no area to stand on.
+  EXPECT_NO_THROW(resultOf(caseNamed("top")));
+}
+
+TEST(Pipeline, SaysHonestlyThatAModelCannotStand) {
+  const Result& result = resultOf(caseNamed("hopeless"));
+  EXPECT_FALSE(truth(result, "solved"));
+  EXPECT_FALSE(truth(result, "stands_after"));
+  EXPECT_LT(number(result, "tip_angle_after"), 0.0);
+  EXPECT_GT(number(result, "max_constraint_violation"), 0.0);
+}
+
+TEST(Pipeline, LeavesAPlateSolidThatIsThinnerThanTwoWalls) {
+  const Result result = optimizeMassProperties(box({1, 1, 0.01}, 8), stand());
+  EXPECT_EQ(result.inner.vertices.rows(), 0);
+  EXPECT_EQ(result.inner.faces.rows(), 0);
+  EXPECT_EQ(integer(result, "cavity_components"), 0);
+  EXPECT_EQ(number(result, "volume_after"), number(result, "volume_before"));
+  EXPECT_NE(text(result, "message").find("inner_lower_bound"), std::string::npos);
+}
+
+// ---------------------------------------------------------------- scale, place and direction
+
+TEST(Pipeline, ScalesTheCavityWithTheModelBitForBitByPowersOfTwo) {
+  const TriangleMesh model = leaningPillar();
+  const TriangleMesh& inner = resultOf(caseNamed("pillar")).inner;
+  for (const double factor : {1.0 / 1024, 1024.0}) {
+    const Result result = optimizeMassProperties(scaled(model, factor), stand());
+    ASSERT_EQ(result.inner.vertices.rows(), inner.vertices.rows());
+    EXPECT_EQ(result.inner.faces, inner.faces);
+    EXPECT_EQ(result.inner.vertices, Points(factor * inner.vertices));
+  }
+}
+
+TEST(Pipeline, ScalesTheCavityWithTheModel) {
+  // Any other factor changes the last bits of the input. They are lost where the working
+  // coordinates are rounded to 2⁻³² of the diagonal; what is left are the few coordinates that lie
+  // on the verge of two grid points.
+  const TriangleMesh model = leaningPillar();
+  const Result& original = resultOf(caseNamed("pillar"));
+  for (const double factor : {1e-3, 1e3}) {
+    const Result result = optimizeMassProperties(scaled(model, factor), stand());
+    ASSERT_EQ(result.inner.vertices.rows(), original.inner.vertices.rows());
+    const Points difference = result.inner.vertices / factor - original.inner.vertices;
+    EXPECT_LT(difference.cwiseAbs().maxCoeff(), 1e-6 * diagonal(model)) << "factor " << factor;
+    EXPECT_NEAR(number(result, "tip_angle_after"), number(original, "tip_angle_after"), 1e-4);
+    EXPECT_NEAR(number(result, "objective_after"), number(original, "objective_after"), 1e-6);
+  }
+}
+
+TEST(Pipeline, MovesTheCavityWithTheModel) {
+  const TriangleMesh model = leaningPillar();
+  const Result& original = resultOf(caseNamed("pillar"));
+  const Vec3 shift(1000, -3000, 250);
+  const Result result =
+      optimizeMassProperties(transformed(model, Mat3::Identity(), shift), stand());
+  ASSERT_EQ(result.inner.vertices.rows(), original.inner.vertices.rows());
+  const Points difference =
+      (result.inner.vertices.rowwise() - shift.transpose()) - original.inner.vertices;
+  // At a distance of 3000 the coordinates have 4.5e-13 left: 1e-5 of a grid step.
+  EXPECT_LT(difference.cwiseAbs().maxCoeff(), 1e-6 * diagonal(model));
+}
+
+TEST(Pipeline, GivesTheSameCavityWhicheverAxisIsUp) {
+  // The model turned by a permutation of its axes, with signs: no coordinate is rounded anew.
+  const TriangleMesh model = leaningPillar();
+  const TriangleMesh& inner = resultOf(caseNamed("pillar")).inner;
+  const std::vector<std::pair<UpAxis, Vec3>> axes = {
+      {UpAxis::PlusY, {0, 1, 0}},   {UpAxis::PlusX, {1, 0, 0}},   {UpAxis::MinusZ, {0, 0, -1}},
+      {UpAxis::MinusY, {0, -1, 0}}, {UpAxis::MinusX, {-1, 0, 0}},
+  };
+  for (const auto& [axis, up] : axes) {
+    // Columns: where the model's x, y, z go. The one horizontal axis that follows `up` cyclically
+    // is x for a positive axis; for a negative one it is y.
+    const Eigen::Index k = up.cwiseAbs().maxCoeff() == 1.0 ? [&] {
+      Eigen::Index i = 0;
+      up.cwiseAbs().maxCoeff(&i);
+      return i;
+    }()
+                                                           : 0;
+    Mat3 turn;
+    turn.col(2) = up;
+    const Vec3 next = Vec3::Unit((k + 1) % 3);
+    const Vec3 afterNext = Vec3::Unit((k + 2) % 3);
+    turn.col(0) = up[k] > 0 ? next : afterNext;
+    turn.col(1) = up[k] > 0 ? afterNext : next;
+    ASSERT_EQ(turn.determinant(), 1.0);
+    Options options = stand();
+    options.upAxis = axis;
+    const Result result = optimizeMassProperties(transformed(model, turn), options);
+    ASSERT_EQ(result.inner.vertices.rows(), inner.vertices.rows());
+    EXPECT_EQ(result.inner.faces, inner.faces);
+    // −0 and 0 are equal.
+    EXPECT_EQ(result.inner.vertices, transformed(inner, turn).vertices) << up.transpose();
+  }
+}
+
+TEST(Pipeline, AcceptsASurfaceThatFacesInwards) {
+  const TriangleMesh& inner = resultOf(caseNamed("pillar")).inner;
+  const Result result = optimizeMassProperties(reversed(leaningPillar()), stand());
+  EXPECT_LT(quadratureMoments(result.inner)[0], 0.0);
+  EXPECT_EQ(result.inner.vertices.rows(), inner.vertices.rows());
+}
+
+// ---------------------------------------------------------------- determinism
+
+/// FNV-1a over all bytes of the cavity.
+std::uint64_t fingerprint(const TriangleMesh& mesh) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  const auto feed = [&](const void* data, std::size_t size) {
+    const auto* bytes = static_cast<const unsigned char*>(data);
+    for (std::size_t i = 0; i < size; ++i) hash = (hash ^ bytes[i]) * 1099511628211ULL;
+  };
+  feed(mesh.vertices.data(), static_cast<std::size_t>(mesh.vertices.size()) * sizeof(double));
+  feed(mesh.faces.data(), static_cast<std::size_t>(mesh.faces.size()) * sizeof(int));
+  return hash;
+}
+
+/// An organic shape: its skeleton is where chance would come in.
+std::uint64_t figureFingerprint() {
+  return fingerprint(optimizeMassProperties(figure(2), stand()).inner);
+}
+
+TEST(Pipeline, IsTheSameBitForBitWhateverTheHeapLooksLike) {
+  const std::uint64_t first = figureFingerprint();
+  // Blocks of all small sizes, every other one freed, so that new ones get scattered addresses.
+  std::vector<std::unique_ptr<char[]>> blocks;
+  Random random(31);
+  for (int i = 0; i < 200000; ++i)
+    blocks.push_back(std::make_unique<char[]>(static_cast<std::size_t>(16 + 120 * (1 + random()))));
+  for (std::size_t i = 0; i < blocks.size(); i += 2) blocks[i].reset();
+  EXPECT_EQ(figureFingerprint(), first);
+}
+
+TEST(Pipeline, DISABLED_PrintsAFingerprint) {
+  std::printf("fingerprint %llu\n", static_cast<unsigned long long>(figureFingerprint()));
+}
+
+TEST(Pipeline, IsTheSameBitForBitInAnotherProcess) {
+  const std::string command = "MALLOC_PERTURB_=85 MALLOC_MMAP_THRESHOLD_=4096 /proc/self/exe "
+                              "--gtest_also_run_disabled_tests "
+                              "--gtest_filter=Pipeline.DISABLED_PrintsAFingerprint";
+  // /proc/self/exe would be the shell's in the child.
+  std::array<char, 4096> path{};
+  ASSERT_GT(readlink("/proc/self/exe", path.data(), path.size() - 1), 0);
+  std::string own = command;
+  own.replace(own.find("/proc/self/exe"), std::strlen("/proc/self/exe"),
+              "'" + std::string(path.data()) + "'");
+  std::FILE* pipe = popen(own.c_str(), "r");
+  ASSERT_NE(pipe, nullptr);
+  unsigned long long other = 0;
+  std::array<char, 256> line{};
+  while (std::fgets(line.data(), line.size(), pipe) != nullptr) {
+    std::sscanf(line.data(), "fingerprint %llu", &other);
+  }
+  EXPECT_EQ(pclose(pipe), 0);
+  EXPECT_EQ(other, figureFingerprint());
+}
+
+// ---------------------------------------------------------------- parameters
+
+TEST(Pipeline, KeepsAThickerWallWhenAsked) {
+  Options options = stand();
+  options.innerLowerBound = 0.1;
+  const Result result = optimizeMassProperties(leaningPillar(), options);
+  EXPECT_GE(number(result, "min_wall"), 0.099);
+  EXPECT_LT(number(resultOf(caseNamed("pillar")), "min_wall"), 0.099);
+}
+
+TEST(Pipeline, KeepsFartherFromTheSkeletonWithALowerUpperBound) {
+  Options options = stand();
+  options.innerUpperBound = 0.3;
+  const Result result = optimizeMassProperties(leaningPillar(), options);
+  EXPECT_LT(number(result, "volume_after"), number(resultOf(caseNamed("pillar")), "volume_after"));
+}
+
+TEST(Pipeline, MovesTheOuterSurfaceWithinItsBoundsOutwardsAndNotItsFeet) {
+  const Case& c = caseNamed("moving outer surface");
+  const Result& result = resultOf(c);
+  ASSERT_TRUE(result.outer.has_value());
+  EXPECT_EQ(result.outer->faces, c.model.faces);
+  const Vector moved = (result.outer->vertices - c.model.vertices).rowwise().norm();
+  EXPECT_LE(moved.maxCoeff(), c.options.outerUpperBound * (1 + 1e-9));
+  EXPECT_GT(moved.maxCoeff(), 1e-3);
+  EXPECT_GT(quadratureMoments(*result.outer)[0], quadratureMoments(c.model)[0]);
+  const double ground = c.model.vertices.col(2).minCoeff();
+  EXPECT_GE(result.outer->vertices.col(2).minCoeff(), ground - 1e-9);
+  for (Eigen::Index v = 0; v < moved.size(); ++v) {
+    if (c.model.vertices(v, 2) <= ground) {
+      EXPECT_LT(moved[v], 1e-9);
+    }
+  }
+}
+
+TEST(Pipeline, LeavesTheOuterSurfaceAloneByDefault) {
+  EXPECT_FALSE(resultOf(caseNamed("pillar")).outer.has_value());
+}
+
+TEST(Pipeline, SavesMaterialWhenVolumeHasWeight) {
+  Options options = stand();
+  options.weights.volume = 10.0;
+  const Result result = optimizeMassProperties(leaningPillar(), options);
+  EXPECT_LT(number(result, "volume_after"),
+            0.9 * number(resultOf(caseNamed("pillar")), "volume_after"));
+}
+
+TEST(Pipeline, MovesTheOuterSurfaceLessWhenItsDisplacementHasWeight) {
+  const Case& c = caseNamed("moving outer surface");
+  Options options = c.options;
+  options.weights.outer = 1e4;
+  const Result heavy = optimizeMassProperties(c.model, options);
+  const auto meanSquare = [&](const Result& r) {
+    return (r.outer->vertices - c.model.vertices).squaredNorm();
+  };
+  EXPECT_LT(meanSquare(heavy), 0.5 * meanSquare(resultOf(c)));
+}
+
+TEST(Pipeline, MakesSmootherOffsetsWhenSmoothnessHasWeight) {
+  // The spread of |x − y| over the edges of the surface; all vertices are hollowed here.
+  const TriangleMesh model = leaningPillar();
+  const auto roughness = [&](const Result& r) {
+    EXPECT_EQ(r.inner.vertices.rows(), model.vertices.rows());
+    const Vector offset = (r.inner.vertices - model.vertices).rowwise().norm();
+    double sum = 0.0;
+    for (Eigen::Index f = 0; f < model.faces.rows(); ++f)
+      for (int k = 0; k < 3; ++k)
+        sum += std::pow(offset[model.faces(f, k)] - offset[model.faces(f, (k + 1) % 3)], 2);
+    return sum;
+  };
+  Options options = stand();
+  options.weights.smoothness = 1.0;
+  const Result smooth = optimizeMassProperties(model, options);
+  EXPECT_LT(roughness(smooth), 0.7 * roughness(resultOf(caseNamed("pillar"))));
+}
+
+TEST(Pipeline, MayMissTheConstraintsWhenTheyHaveNoWeightAndSaysSo) {
+  // Without constraints the weight on inertia alone has no reason to bring the axis upright.
+  Options options = spin();
+  options.weights.constraints = 0.0;
+  const Result result = optimizeMassProperties(leaningTop(0.1, 9), options);
+  EXPECT_GT(number(result, "max_constraint_violation"), 1e-5);
+  EXPECT_FALSE(truth(result, "solved"));
+}
+
+TEST(Pipeline, ReachesLessWithFewerBasisFunctions) {
+  Options options = stand();
+  options.basisSize = 1;
+  const Result constant = optimizeMassProperties(leaningPillar(), options);
+  EXPECT_GT(number(constant, "objective_after"),
+            number(resultOf(caseNamed("pillar")), "objective_after"));
+}
+
+TEST(Pipeline, StandsOnTheEllipseWhenRadiiAreGiven) {
+  Options options = stand();
+  options.radiusX = 5.0;
+  options.radiusY = 5.0;
+  const Result wide = optimizeMassProperties(leaningPillar(), options);
+  EXPECT_TRUE(truth(wide, "stands_before"));
+}
+
+TEST(Pipeline, HasAMassProportionalToTheDensityAndTheSameCavity) {
+  Options options = stand();
+  options.density = 2.48;
+  const Result result = optimizeMassProperties(leaningPillar(), options);
+  const Result& original = resultOf(caseNamed("pillar"));
+  EXPECT_EQ(result.inner.vertices, original.inner.vertices);
+  EXPECT_NEAR(number(result, "mass_after"), 2 * number(original, "mass_after"), 1e-12);
+}
+
+TEST(Pipeline, DeliversAndMeasuresWhatTheCallerCanStore) {
+  Options options = stand();
+  options.representable = [](const Points& points) {
+    return Points(points.cast<float>().cast<double>());
+  };
+  // Far away a float has a step of 6e-5 there: a quarter of a percent of the wall.
+  const TriangleMesh model = transformed(leaningPillar(), Mat3::Identity(), {600, 700, 800});
+  TriangleMesh stored = model;
+  stored.vertices = options.representable(model.vertices);
+  const Case c{"floats", stored, options};
+  const Result& result = resultOf(c);
+  EXPECT_EQ(result.inner.vertices, options.representable(result.inner.vertices));
+  const Vec3 origin = stored.vertices.colwise().mean().transpose();
+  const Body body = bodyOf(massMomentsOf(c, origin, false));
+  EXPECT_NEAR(number(result, "mass_after"), body.mass, 1e-8 * body.mass);
+  EXPECT_NEAR(number(result, "min_wall"), leastDistance(result.inner, stored), 1e-9);
+  EXPECT_EQ(intersectingPairs(result.inner), 0U);
+}
+
+TEST(Pipeline, TellsItsProgressInOrder) {
+  std::vector<int> percents;
+  std::vector<std::string> stages;
+  optimizeMassProperties(leaningPillar(), stand(), [&](int percent, const char* stage) {
+    percents.push_back(percent);
+    stages.emplace_back(stage);
+  });
+  ASSERT_GT(percents.size(), 4U);
+  EXPECT_TRUE(std::is_sorted(percents.begin(), percents.end()));
+  EXPECT_GE(percents.front(), 0);
+  EXPECT_EQ(percents.back(), 100);
+  for (const std::string& stage : stages) EXPECT_FALSE(stage.empty());
+}
+
+// ---------------------------------------------------------------- refusals
+
+void expectRefusal(const TriangleMesh& model, const Options& options, const std::string& word) {
+  try {
+    optimizeMassProperties(model, options);
+    ADD_FAILURE() << "accepted; expected a refusal that names " << word;
+  } catch (const InvalidInput& e) {
+    EXPECT_NE(std::string(e.what()).find(word), std::string::npos) << e.what();
+  }
+}
+
+TEST(Pipeline, RefusesAbsurdParametersByName) {
+  const TriangleMesh model = leaningPillar();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto with = [](const std::function<void(Options&)>& change) {
+    Options options;
+    change(options);
+    return options;
+  };
+  const std::vector<std::pair<Options, std::string>> absurd = {
+      {with([](Options& o) { o.basisSize = 0; }), "basis_k"},
+      {with([](Options& o) { o.basisSize = -3; }), "basis_k"},
+      {with([&](Options& o) { o.basisSize = static_cast<int>(model.vertices.rows()); }), "basis_k"},
+      {with([](Options& o) { o.radiusX = -1.0, o.radiusY = 1.0; }), "radius_x"},
+      {with([](Options& o) { o.radiusX = 1.0; }), "radius_y"},
+      {with([](Options& o) { o.innerLowerBound = -0.1; }), "inner_lower_bound"},
+      {with([&](Options& o) { o.innerLowerBound = nan; }), "inner_lower_bound"},
+      {with([](Options& o) { o.innerLowerBound = 100.0; }), "inner_lower_bound"},
+      {with([](Options& o) { o.innerUpperBound = 0.0; }), "inner_upper_bound"},
+      {with([](Options& o) { o.innerUpperBound = 1.5; }), "inner_upper_bound"},
+      {with([](Options& o) { o.outerLowerBound = 0.2, o.outerUpperBound = 0.1; }),
+       "outer_lower_bound"},
+      {with([](Options& o) { o.outerUpperBound = -0.1; }), "outer_upper_bound"},
+      {with([](Options& o) { o.outerUpperBound = 100.0; }), "outer_upper_bound"},
+      {with([](Options& o) { o.weights.volume = -1.0; }), "opt_weight"},
+      {with([&](Options& o) { o.weights.outer = nan; }), "opt_weight"},
+      {with([](Options& o) { o.density = -1.24; }), "density"},
+      {with([](Options& o) { o.density = 0.0; }), "density"},
+      {with([](Options& o) { o.fillDensity = -1.0; }), "fill_density"},
+  };
+  for (const auto& [options, word] : absurd) expectRefusal(model, options, word);
+}
+
+TEST(Pipeline, RefusesASurfaceThatCrossesItself) {
+  TriangleMesh model = box({1, 1, 1}, 4);
+  // The middle of the top pulled out through a side.
+  for (Eigen::Index v = 0; v < model.vertices.rows(); ++v) {
+    if (model.vertices.row(v) == Eigen::RowVector3d(0, 0, 0.5))
+      model.vertices.row(v) << 0.8, 0.1, 0;
+  }
+  expectRefusal(model, stand(), "crosses itself");
+}
+
+TEST(Pipeline, RefusesToStandOnAPoint) {
+  expectRefusal(sphere(6), stand(), "radius_x");
+}
+
+} // namespace
+} // namespace massprops::testing
