@@ -10,7 +10,7 @@
 # usage: scripts/demo.sh [sample name ...]
 set -eu
 cd "$(dirname "$0")/.."
-scripts/setup.sh
+scripts/setup.sh filter_massprops
 mkdir -p out
 
 if [ $# -eq 0 ]; then

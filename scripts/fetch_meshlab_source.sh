@@ -115,7 +115,7 @@ private_apt() {
 private_apt update >&2 || fail "the source lists of $(echo $offering) cannot be read."
 (cd "$work" && private_apt source --only-source --download-only "$source_package=$source_version" >&2) ||
   fail "the source package $source_package $source_version cannot be had."
-dpkg-source --no-check -x "$work"/*.dsc "$work/unpacked/tree" >&2
+dpkg-source -q --no-check -x "$work"/*.dsc "$work/unpacked/tree" >&2
 touch "$work/unpacked/tree/.complete"
 rm -rf "$target"
 mv "$work/unpacked/tree" "$target"

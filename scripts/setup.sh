@@ -2,6 +2,8 @@
 # Makes a bare Debian 12 machine ready and builds everything: installs the packages that are
 # missing, gets the headers of the installed MeshLab, configures and builds build/release. What is
 # done already is skipped.
+#
+# usage: scripts/setup.sh [target ...]   all targets when none is named
 set -eu
 cd "$(dirname "$0")/.."
 
@@ -44,4 +46,4 @@ cmake --preset release -DMASSPROPS_WERROR=ON >build/configure.log 2>&1 || {
   cat build/configure.log >&2
   exit 1
 }
-cmake --build --preset release
+cmake --build --preset release ${1:+--target "$@"}
