@@ -17,7 +17,7 @@ constexpr double kShrink = 0.6;
 constexpr double kBoundSlope = 1.0;
 /// Neighbours share a missing wall: correcting each by a little more needs fewer rounds.
 constexpr double kOverstep = 1.5;
-constexpr double kLeastGain = 0.3;
+constexpr double kLeastGain = 0.6;
 
 /// Moves the bounds so that what the inspection found cannot happen again in the same way.
 void tighten(const CavityTask& task, const CavityResult& result, const Neighbours& neighbours,
