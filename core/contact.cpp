@@ -85,12 +85,6 @@ GroundContact groundContact(const Points& upright, const std::optional<Vec2>& ra
   std::vector<Vec2> hull = convexHull(touching);
   const double smallestArea = std::pow(kContactTolerance * diagonal, 2);
   const bool flat = hull.size() >= 3 && signedArea(hull) > smallestArea;
-  if (!flat && !radii) {
-    throw InvalidInput("The model touches the ground only in a point or along a line, so it has "
-                       "nothing to stand on: turn it upright, cut a flat foot (Compute Planar "
-                       "Section), choose another up_axis, or set radius_x and radius_y to the "
-                       "size of its contact area, then run again.");
-  }
   Vec2 centre = Vec2::Zero();
   if (flat) {
     centre = centroid(hull);
@@ -105,6 +99,14 @@ GroundContact groundContact(const Points& upright, const std::optional<Vec2>& ra
   }
   contact.area.radii = radii;
   return contact;
+}
+
+void requireArea(const ContactArea& area) {
+  if (!area.polygon.empty() || area.radii) return;
+  throw InvalidInput("The model touches the ground only in a point or along a line, so it has "
+                     "nothing to stand on: turn it upright, cut a flat foot (Compute Planar "
+                     "Section), choose another up_axis, or set radius_x and radius_y to the "
+                     "size of its contact area, then run again.");
 }
 
 ContactArea scaled(const ContactArea& area, double length) {

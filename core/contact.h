@@ -11,7 +11,8 @@ namespace massprops {
 /// A convex region of the ground plane, relative to its own centre. Coordinates are the two
 /// horizontal ones of the working frame.
 struct ContactArea {
-  /// Convex polygon, counter-clockwise, at least three corners; unused when `radii` is given.
+  /// Convex polygon, counter-clockwise, at least three corners or none; unused when `radii` is
+  /// given.
   std::vector<Vec2> polygon;
   /// Half axes of an ellipse that takes the polygon's place.
   std::optional<Vec2> radii;
@@ -23,11 +24,14 @@ struct GroundContact {
 };
 
 /// All vertices within 1e-4 of the diagonal above the lowest one touch the ground.
-/// `upright`: n×3, up is +z, any unit. `radii`: half axes instead of the polygon, same unit.
-/// \throw InvalidInput when the contact points span no area and no radii are given
+/// `upright`: n×3, up is +z, any unit. `radii`: half axes instead of the polygon, same unit. The
+/// polygon is empty when the contact points span no area.
 GroundContact groundContact(const Points& upright, const std::optional<Vec2>& radii);
 
-/// The area moved and scaled: a corner p becomes p / length.
+/// \throw InvalidInput when there is neither a polygon nor an ellipse
+void requireArea(const ContactArea& area);
+
+/// The area scaled: a corner p becomes p / length.
 ContactArea scaled(const ContactArea& area, double length);
 
 /// Farthest extent of the area in the unit direction `u` (support function), ≥ 0.

@@ -28,6 +28,7 @@ Workpiece makeWorkpiece(const Solid& solid, const Options& options) {
   std::optional<Vec2> radii;
   if (options.radiusX && options.radiusY) radii = Vec2(*options.radiusX, *options.radiusY);
   const GroundContact contact = groundContact(upright, radii);
+  if (options.goal == GoalKind::Stand) requireArea(contact.area);
   piece.frame.origin = piece.frame.rotation.transpose() * contact.centre;
   piece.frame.length = solid.diagonal();
   piece.contact = scaled(contact.area, solid.diagonal());
