@@ -23,12 +23,9 @@ std::size_t rounded(std::size_t bytes) {
 
 } // namespace
 
-ArenaScope::ArenaScope(std::size_t vertices) {
-  // A closed triangle mesh has 1 vertex, 2 faces and 6 halfedges a vertex, about a kilobyte with
-  // list links; the flow splits edges while it collapses others, which reuses freed nodes.
-  constexpr std::size_t kBytesPerVertex = 8192;
-  constexpr std::size_t kLeast = std::size_t{16} << 20U;
-  const std::size_t bytes = kLeast + kBytesPerVertex * vertices;
+ArenaScope::ArenaScope(std::size_t bytes) {
+  constexpr std::size_t kLeast = std::size_t{1} << 20U;
+  bytes += kLeast;
   arena.begin = static_cast<char*>(std::malloc(bytes));
   if (arena.begin == nullptr) throw std::bad_alloc();
   arena.next = arena.begin;

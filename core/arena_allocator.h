@@ -12,8 +12,8 @@ namespace massprops {
 /// be freed before the scope ends.
 class ArenaScope {
 public:
-  /// `vertices`: of the mesh to be stored; sizes the block (untouched memory costs nothing).
-  explicit ArenaScope(std::size_t vertices);
+  /// `bytes`: size of the block beyond a small constant; untouched memory costs nothing.
+  explicit ArenaScope(std::size_t bytes);
   ~ArenaScope();
   ArenaScope(const ArenaScope&) = delete;
   ArenaScope& operator=(const ArenaScope&) = delete;

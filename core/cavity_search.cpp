@@ -120,7 +120,7 @@ CavityResult searchCavity(const CavityTask& task, const std::function<void(doubl
     result.inspection = inspect(result.inner, result.cavity.faces, result.outer, task.faces,
                                 task.wall, task.outer.has_value());
     result.secondsInspection += inspection.seconds();
-    progress(1.0 - 1.0 / (2.0 + round));
+    if (progress) progress(1.0 - 1.0 / (2.0 + round));
     if (result.inspection.isClean()) {
       if (result.inspection.components > 0) result.status = CavityStatus::Found;
       return result;

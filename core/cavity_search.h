@@ -22,9 +22,10 @@ struct CavityTask {
   const Vector& mass; ///< lumped, total 1
   const Goal& goal;
   Weights weights = {};
-  Moments solidMoments = Moments::Zero();
-  double fillDensity = 0.0; ///< as a multiple of the material's density
-  double wall = 0.0;        ///< working length
+  Moments solidMoments = Moments::Zero(); ///< of the outer surface
+  Moments inputMoments = Moments::Zero(); ///< of the input, existing cavities taken off
+  double fillDensity = 0.0;               ///< as a multiple of the material's density
+  double wall = 0.0;                      ///< working length
   OffsetBounds inner = {};
   std::optional<OffsetBounds> outer = {};
   /// Rounds working positions to those that can be delivered, still in the working frame.
@@ -55,7 +56,7 @@ struct CavityResult {
 /// itself or comes too near to the outer surface the bounds close in, and what is left without room
 /// becomes solid; after a bounded number of rounds all that still fails becomes solid, so that
 /// what is returned is clean or empty.
-/// `progress`: called with the share of the work that is done, 0…1.
+/// `progress`: called with the share of the work that is done, 0…1; may be empty.
 CavityResult searchCavity(const CavityTask& task, const std::function<void(double)>& progress);
 
 } // namespace massprops

@@ -1,10 +1,13 @@
 #include "core/harmonics.h"
 
+#include "core/components.h"
+
 #include <Eigen/SparseCholesky>
 #include <Spectra/SymEigsShiftSolver.h>
 
 #include <algorithm>
 #include <stdexcept>
+#include <vector>
 
 namespace massprops {
 namespace {
@@ -68,6 +71,50 @@ HarmonicBasis harmonicBasis(const SparseMatrix& L, const Vector& mass, int k) {
     Eigen::Index largest = 0;
     basis.functions.col(j).cwiseAbs().maxCoeff(&largest);
     if (basis.functions(largest, j) < 0.0) basis.functions.col(j) *= -1.0;
+  }
+  return basis;
+}
+
+HarmonicBasis harmonicBasis(const Points& vertices, const Faces& faces, const SparseMatrix& L,
+                            const Vector& mass, int k) {
+  const Components components = connectedComponents(vertices.rows(), faces);
+  if (components.size() == 1) return harmonicBasis(L, mass, k);
+  struct Mode {
+    double eigenvalue;
+    std::size_t component;
+    Eigen::Index column;
+  };
+  std::vector<Mode> modes;
+  std::vector<HarmonicBasis> bases;
+  std::vector<Submesh> parts;
+  for (const Faces& faceRows : components) {
+    const Submesh& part = parts.emplace_back(submesh(vertices, faceRows));
+    Vector partMass(part.mesh.vertices.rows());
+    for (std::size_t i = 0; i < part.vertexOf.size(); ++i) {
+      partMass[static_cast<Eigen::Index>(i)] = mass[part.vertexOf[i]];
+    }
+    const int most = static_cast<int>(part.mesh.vertices.rows()) - 1;
+    bases.push_back(harmonicBasis(cotanLaplacian(part.mesh.vertices, part.mesh.faces), partMass,
+                                  std::min(k, most)));
+    for (Eigen::Index j = 0; j < bases.back().eigenvalues.size(); ++j) {
+      modes.push_back({bases.back().eigenvalues[j], bases.size() - 1, j});
+    }
+  }
+  std::stable_sort(modes.begin(), modes.end(),
+                   [](const Mode& a, const Mode& b) { return a.eigenvalue < b.eigenvalue; });
+  modes.resize(std::min(modes.size(), static_cast<std::size_t>(k)));
+  HarmonicBasis basis;
+  const auto columns = static_cast<Eigen::Index>(modes.size());
+  basis.eigenvalues.resize(columns);
+  basis.functions.setZero(vertices.rows(), columns);
+  for (Eigen::Index j = 0; j < columns; ++j) {
+    const Mode& mode = modes[static_cast<std::size_t>(j)];
+    basis.eigenvalues[j] = mode.eigenvalue;
+    const std::vector<int>& vertexOf = parts[mode.component].vertexOf;
+    for (std::size_t i = 0; i < vertexOf.size(); ++i) {
+      basis.functions(vertexOf[i], j) =
+          bases[mode.component].functions(static_cast<Eigen::Index>(i), mode.column);
+    }
   }
   return basis;
 }

@@ -21,4 +21,10 @@ struct HarmonicBasis {
 /// \throw std::runtime_error when the eigensolver does not converge
 HarmonicBasis harmonicBasis(const SparseMatrix& L, const Vector& mass, int k);
 
+/// The same of a surface with several components, whose constants span the kernel together. Each
+/// component is solved on its own, for an eigenvalue as often as there are components is hard to
+/// find; the k lowest of all are kept.
+HarmonicBasis harmonicBasis(const Points& vertices, const Faces& faces, const SparseMatrix& L,
+                            const Vector& mass, int k);
+
 } // namespace massprops

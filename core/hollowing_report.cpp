@@ -17,11 +17,13 @@ struct Body {
   double violation = 0.0;
 };
 
-Body solidBody(const CavityTask& task) {
+/// The model as it came in, existing cavities and all.
+Body inputBody(const CavityTask& task) {
+  const double share = task.inputMoments[0] / task.solidMoments[0];
   return {
-      task.solidMoments, task.solidMoments[0],
-      objectiveValue(task.goal, task.weights, task.solidMoments, 1.0, task.L, {}, task.mass, {}),
-      largestViolation(task.goal, task.solidMoments)};
+      task.inputMoments, task.inputMoments[0],
+      objectiveValue(task.goal, task.weights, task.inputMoments, share, task.L, {}, task.mass, {}),
+      largestViolation(task.goal, task.inputMoments)};
 }
 
 Body hollowBody(const CavityTask& task, const CavityResult& cavity) {
@@ -51,12 +53,14 @@ MassProperties inModel(const Moments& massMoments, const Frame& frame, double de
 }
 
 std::string message(const CavityTask& task, const CavityResult& cavity, const Body& before,
-                    const Body& after) {
+                    const Body& after, double largestWall) {
   std::string sentence =
       task.goal.isReached(after.mass) ? "The goal is reached" : "The goal is missed";
   if (cavity.status == CavityStatus::NoRoom) {
-    return sentence + " by the solid model; nothing can be hollowed at this wall: lower "
-                      "inner_lower_bound.";
+    return sentence +
+           " by the solid model; nothing can be hollowed at this wall: lower "
+           "inner_lower_bound" +
+           (largestWall > 0.0 ? " to " + toString(largestWall) + " or less." : ".");
   }
   if (cavity.status == CavityStatus::NoGain) {
     return sentence + " by the solid model, and no cavity with this wall was found to serve it "
@@ -71,7 +75,7 @@ std::string message(const CavityTask& task, const CavityResult& cavity, const Bo
 } // namespace
 
 bool isBetterThanSolid(const CavityTask& task, const CavityResult& cavity) {
-  const Body solid = solidBody(task);
+  const Body solid = inputBody(task);
   const Body hollow = hollowBody(task, cavity);
   const bool constrained = task.weights.constraints > 0.0;
   if (constrained && std::max(solid.violation, hollow.violation) > kFeasibility) {
@@ -81,8 +85,8 @@ bool isBetterThanSolid(const CavityTask& task, const CavityResult& cavity) {
 }
 
 Report hollowingReport(const Workpiece& piece, const CavityTask& task, const CavityResult& cavity,
-                       GoalKind kind, double density, const StageTimes& times) {
-  const Body before = solidBody(task);
+                       GoalKind kind, double density, const Stages& stages) {
+  const Body before = inputBody(task);
   const bool hollow = cavity.status == CavityStatus::Found;
   const Body after = hollow ? hollowBody(task, cavity) : before;
   const MassProperties modelBefore = inModel(before.mass, piece.frame, density);
@@ -92,7 +96,8 @@ Report hollowingReport(const Workpiece& piece, const CavityTask& task, const Cav
   Report report;
   report.add("goal", std::string(kind == GoalKind::Stand ? "Stand" : "Spin"));
   report.add("solved", after.violation <= kFeasibility && task.goal.isReached(after.mass));
-  report.add("message", message(task, cavity, before, after));
+  report.add("message",
+             message(task, cavity, before, after, stages.largestWall * piece.frame.length));
   report.add("objective_before", before.objective);
   report.add("objective_after", after.objective);
   report.add("max_constraint_violation", after.violation);
@@ -108,14 +113,19 @@ Report hollowingReport(const Workpiece& piece, const CavityTask& task, const Cav
   task.goal.describe(after.mass, "after", report);
   report.add("min_wall", hollow ? cavity.inspection.leastWall * piece.frame.length : 0.0);
   report.add("cavity_components", hollow ? cavity.inspection.components : 0);
+  if (cavity.status == CavityStatus::NoRoom) {
+    report.add("largest_wall", stages.largestWall * piece.frame.length);
+  }
+  report.add("repairs", stages.repairs);
+  report.add("skeleton_failures", stages.skeletonFailures);
   report.add("solid_vertices", hollow ? static_cast<int>(std::count(cavity.cavity.solid.begin(),
                                                                     cavity.cavity.solid.end(), 1))
                                       : static_cast<int>(piece.vertices.rows()));
   report.add("stop_reason", cavity.stopReason);
   report.add("rounds", cavity.rounds);
   report.add("evaluations", cavity.evaluations);
-  report.add("seconds_skeleton", times.skeleton);
-  report.add("seconds_basis", times.basis);
+  report.add("seconds_skeleton", stages.secondsSkeleton);
+  report.add("seconds_basis", stages.secondsBasis);
   report.add("seconds_optimization", cavity.secondsOptimization);
   report.add("seconds_inspection", cavity.secondsInspection);
   return report;

@@ -5,12 +5,17 @@
 #include "core/report.h"
 #include "core/workpiece.h"
 
+#include <string>
+
 namespace massprops {
 
-/// Seconds that the stages before the search took.
-struct StageTimes {
-  double skeleton = 0.0;
-  double basis = 0.0;
+/// What happened before and beside the search.
+struct Stages {
+  std::string repairs;      ///< of the input, in words
+  int skeletonFailures = 0; ///< components on which the mean curvature flow failed
+  double largestWall = 0.0; ///< working length; of use when there is no room for a cavity
+  double secondsSkeleton = 0.0;
+  double secondsBasis = 0.0;
 };
 
 /// Whether the cavity serves the goal better than leaving the body solid: it violates the
@@ -20,6 +25,6 @@ bool isBetterThanSolid(const CavityTask& task, const CavityResult& cavity);
 /// All keys of docs/report.md but `seconds_total`. `density` in g/cm³. An empty cavity stands for
 /// the solid body.
 Report hollowingReport(const Workpiece& piece, const CavityTask& task, const CavityResult& cavity,
-                       GoalKind kind, double density, const StageTimes& times);
+                       GoalKind kind, double density, const Stages& stages);
 
 } // namespace massprops

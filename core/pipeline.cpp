@@ -1,6 +1,7 @@
 #include "core/pipeline.h"
 
 #include "core/cavity_search.h"
+#include "core/components.h"
 #include "core/harmonics.h"
 #include "core/hollowing_report.h"
 #include "core/laplacian.h"
@@ -10,7 +11,7 @@
 #include "core/stopwatch.h"
 #include "core/workpiece.h"
 
-#include <algorithm>
+#include <functional>
 #include <future>
 
 namespace massprops {
@@ -30,22 +31,18 @@ std::unique_ptr<Goal> makeGoal(const Options& options, const Workpiece& piece,
   throw InvalidInput("This goal does not exist: choose one from the list.");
 }
 
-/// The vertices that `faces` use, renumbered.
-TriangleMesh compacted(const Points& vertices, const Faces& faces) {
-  std::vector<int> index(static_cast<std::size_t>(vertices.rows()), -1);
-  for (Eigen::Index i = 0; i < faces.size(); ++i) {
-    index[static_cast<std::size_t>(faces.data()[i])] = 0;
+/// The greatest wall, tried in steps of a tenth, that leaves room for a cavity; 0 when none does.
+double largestWall(CavityTask task, const std::function<OffsetBounds(double)>& boundsFor) {
+  const OffsetBounds thinnest = boundsFor(0.0);
+  double wall = thinnest.upper.cwiseProduct(task.field.clearance).maxCoeff();
+  constexpr int kTries = 30;
+  for (int i = 0; i < kTries && wall > 0.0; ++i) {
+    wall *= 0.9;
+    task.wall = wall;
+    task.inner = boundsFor(wall);
+    if (searchCavity(task, {}).status == CavityStatus::Found) return wall;
   }
-  TriangleMesh mesh;
-  mesh.vertices.resize(std::count(index.begin(), index.end(), 0), 3);
-  int next = 0;
-  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
-    if (index[static_cast<std::size_t>(v)] < 0) continue;
-    mesh.vertices.row(next) = vertices.row(v);
-    index[static_cast<std::size_t>(v)] = next++;
-  }
-  mesh.faces = faces.unaryExpr([&](int v) { return index[static_cast<std::size_t>(v)]; });
-  return mesh;
+  return 0.0;
 }
 
 } // namespace
@@ -56,7 +53,7 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
     if (progress) progress(percent, stage);
   };
   const Stopwatch total;
-  StageTimes times;
+  Stages stages;
 
   tell(0, "Checking the model");
   const Solid solid = makeSolid(model);
@@ -70,18 +67,20 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   const Vector mass = area / area.sum();
   std::future<HarmonicBasis> pendingBasis = std::async(std::launch::async, [&] {
     const Stopwatch time;
-    HarmonicBasis result = harmonicBasis(L, mass, options.basisSize);
-    times.basis = time.seconds();
+    HarmonicBasis result = harmonicBasis(piece.vertices, piece.faces, L, mass, options.basisSize);
+    stages.secondsBasis = time.seconds();
     return result;
   });
   const Stopwatch skeletonTime;
-  const Points skeleton = meanCurvatureSkeleton(piece.vertices, piece.faces);
-  times.skeleton = skeletonTime.seconds();
+  const Skeleton skeleton = meanCurvatureSkeleton(piece.vertices, piece.faces);
+  stages.secondsSkeleton = skeletonTime.seconds();
+  stages.skeletonFailures = skeleton.failedComponents;
+  stages.repairs = solid.repairs().describe();
   const HarmonicBasis basis = pendingBasis.get();
 
   tell(65, "Offset directions");
   const OffsetField field =
-      offsetField(piece.vertices, piece.faces, skeleton, L, area, kDiffusionLength);
+      offsetField(piece.vertices, piece.faces, skeleton.points, L, area, kDiffusionLength);
 
   tell(70, "Optimization");
   const Moments solidMoments = moments(piece.vertices, piece.faces);
@@ -93,8 +92,12 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   task.solidMoments = solidMoments;
   task.fillDensity = options.fillDensity / options.density;
   task.wall = piece.wall;
-  task.inner = keepingWall(piece.vertices, piece.faces, field,
-                           innerBounds(field, piece.wall, options.innerUpperBound), piece.wall);
+  task.inputMoments = solidMoments + moments(piece.cavities.vertices, piece.cavities.faces);
+  const auto boundsFor = [&](double wall) {
+    return keepingWall(piece.vertices, piece.faces, field,
+                       innerBounds(field, wall, options.innerUpperBound), wall);
+  };
+  task.inner = boundsFor(task.wall);
   if (options.outerUpperBound > 0.0) {
     task.outer = outerBounds(piece.vertices, field, options.outerLowerBound / piece.frame.length,
                              options.outerUpperBound / piece.frame.length);
@@ -107,18 +110,20 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   if (cavity.status == CavityStatus::Found && !isBetterThanSolid(task, cavity)) {
     cavity.status = CavityStatus::NoGain;
   }
+  if (cavity.status == CavityStatus::NoRoom) stages.largestWall = largestWall(task, boundsFor);
 
   tell(95, "Report");
   Result result;
   if (cavity.status == CavityStatus::Found) {
-    result.inner =
-        compacted(representable(toModel(piece.frame, cavity.inner)), cavity.cavity.faces);
+    Submesh inner = submesh(representable(toModel(piece.frame, cavity.inner)), cavity.cavity.faces);
+    result.inner = std::move(inner.mesh);
     result.inner.faces.col(1).swap(result.inner.faces.col(2));
-    if (task.outer) {
+    result.innerWall = cavity.inspection.wall(inner.vertexOf) * piece.frame.length;
+    if (task.outer || piece.cavities.faces.rows() > 0) {
       result.outer = TriangleMesh{representable(toModel(piece.frame, cavity.outer)), piece.faces};
     }
   }
-  result.report = hollowingReport(piece, task, cavity, options.goal, options.density, times);
+  result.report = hollowingReport(piece, task, cavity, options.goal, options.density, stages);
   result.report.add("seconds_total", total.seconds());
   tell(100, "Done");
   return result;

@@ -18,13 +18,17 @@ struct Result {
   /// inner surface together bound the material. Without vertices and faces when nothing can be
   /// hollowed. Same coordinates as the input.
   TriangleMesh inner;
-  /// The moved outer surface, when `Options::outerUpperBound` > 0; as many vertices as the input.
+  /// Distance of every vertex of `inner` and the triangles around it from the outer surface.
+  Vector innerWall;
+  /// The outer surface when it is not the input's: moved, for `Options::outerUpperBound` > 0, or
+  /// without the cavities that the input had already.
   std::optional<TriangleMesh> outer;
   Report report;
 };
 
 /// Finds the cavity that makes `model` reach `options.goal`. [MAB15]
-/// `model`: one closed, manifold, coherently oriented component; any units, any place.
+/// `model`: closed, manifold, coherently oriented components that do not cross; any units, any
+/// place. Small defects are mended (repair.h) and told.
 /// Same input, same options: same output, bit for bit.
 /// \throw InvalidInput when the model is not such a surface or an option is absurd. A goal out of
 /// reach is no error: it is told in the report.

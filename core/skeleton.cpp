@@ -1,6 +1,8 @@
 #include "core/skeleton.h"
 
 #include "core/arena_allocator.h"
+#include "core/components.h"
+#include "core/spatial.h"
 
 // The skeletonisation orders its edges by their address [CGAL issue 7511], and its mesh type takes
 // its allocator from this macro: nodes from an arena have addresses in the order of their creation.
@@ -14,8 +16,8 @@
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 
+#include <limits>
 #include <stdexcept>
-#include <vector>
 
 namespace massprops {
 namespace {
@@ -40,10 +42,10 @@ Mesh cgalMesh(const Points& vertices, const Faces& faces) {
   return mesh;
 }
 
-} // namespace
-
-Points meanCurvatureSkeleton(const Points& vertices, const Faces& faces) {
-  const ArenaScope arena(static_cast<std::size_t>(vertices.rows()));
+/// Of one component.
+/// \throw std::exception when the flow does not come to an end or loses a vertex
+Points contractedPoints(const Points& vertices, const Faces& faces, std::size_t bytesPerVertex) {
+  const ArenaScope arena(bytesPerVertex * static_cast<std::size_t>(vertices.rows()));
   CGAL::get_default_random() = CGAL::Random(0);
   const Mesh mesh = cgalMesh(vertices, faces);
   Skeletonization::Skeleton skeleton;
@@ -52,20 +54,53 @@ Points meanCurvatureSkeleton(const Points& vertices, const Faces& faces) {
     flow.contract_until_convergence();
     flow.convert_to_skeleton(skeleton);
   }
-  Points points(vertices.rows(), 3);
-  std::vector<char> reached(static_cast<std::size_t>(vertices.rows()), 0);
+  Points points = Points::Constant(vertices.rows(), 3, std::numeric_limits<double>::quiet_NaN());
   for (const auto node : CGAL::make_range(boost::vertices(skeleton))) {
     const Kernel::Point_3& p = skeleton[node].point;
     for (const auto vertex : skeleton[node].vertices) {
-      const std::size_t v = static_cast<std::size_t>(vertex);
-      points.row(static_cast<Eigen::Index>(v)) << p.x(), p.y(), p.z();
-      reached[v] = 1;
+      points.row(static_cast<Eigen::Index>(vertex)) << p.x(), p.y(), p.z();
     }
   }
-  for (const char r : reached) {
-    if (r == 0) throw std::runtime_error("the mean curvature flow lost a vertex of this mesh");
+  if (!points.allFinite()) {
+    throw std::runtime_error("the mean curvature flow lost a vertex of this mesh");
   }
   return points;
+}
+
+Points halfWayThrough(const Points& vertices, const Faces& faces) {
+  Points inward = Points::Zero(vertices.rows(), 3);
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    const Vec3 a = vertices.row(faces(f, 0)).transpose();
+    const Vec3 b = vertices.row(faces(f, 1)).transpose();
+    const Vec3 c = vertices.row(faces(f, 2)).transpose();
+    for (const int v : faces.row(f)) inward.row(v) -= (b - a).cross(c - a).transpose();
+  }
+  inward.rowwise().normalize();
+  const double diagonal = (vertices.colwise().maxCoeff() - vertices.colwise().minCoeff()).norm();
+  const Vector half =
+      0.5 * SurfaceIndex(vertices, faces).chords(vertices, inward).cwiseMin(diagonal);
+  return vertices + half.asDiagonal() * inward;
+}
+
+} // namespace
+
+Skeleton meanCurvatureSkeleton(const Points& vertices, const Faces& faces,
+                               std::size_t flowBytesPerVertex) {
+  Skeleton skeleton{Points(vertices.rows(), 3), 0};
+  for (const Faces& component : connectedComponents(vertices.rows(), faces)) {
+    const Submesh part = submesh(vertices, component);
+    Points points;
+    try {
+      points = contractedPoints(part.mesh.vertices, part.mesh.faces, flowBytesPerVertex);
+    } catch (const std::exception&) {
+      points = halfWayThrough(part.mesh.vertices, part.mesh.faces);
+      ++skeleton.failedComponents;
+    }
+    for (std::size_t i = 0; i < part.vertexOf.size(); ++i) {
+      skeleton.points.row(part.vertexOf[i]) = points.row(static_cast<Eigen::Index>(i));
+    }
+  }
+  return skeleton;
 }
 
 } // namespace massprops

@@ -1,16 +1,29 @@
 // The mean curvature skeleton, as the point that every surface vertex shrinks to.
 #pragma once
 
-#include "core/solid.h"
 #include "core/types.h"
+
+#include <cstddef>
 
 namespace massprops {
 
-/// n×3: row i is the skeleton point to which vertex i contracts under mean curvature flow,
-/// medially centred. [TAOZ12]
+struct Skeleton {
+  /// n×3: row i is the skeleton point to which vertex i contracts.
+  Points points;
+  /// Components on which the flow failed; their points lie half-way through the body, against the
+  /// vertex normal.
+  int failedComponents = 0;
+};
+
+/// Memory for the contracting mesh; a mesh needs about a third of it. The flow splits edges in a
+/// loop that has no other bound and may never end on degenerate input [CGAL issue 7893].
+constexpr std::size_t kFlowBytesPerVertex = 2048;
+
+/// Contracts every connected component under mean curvature flow, medially centred. [TAOZ12]
 /// Two calls with the same coordinates give the same bytes, whatever the program did before.
-/// \pre the coordinates are of order one and far fewer digits than a double has (see `snapped`)
-/// \throw std::runtime_error when the flow leaves a vertex without a skeleton point
-Points meanCurvatureSkeleton(const Points& vertices, const Faces& faces);
+/// \pre closed 2-manifolds with coordinates of order one and far fewer digits than a double has
+/// (see `snapped`)
+Skeleton meanCurvatureSkeleton(const Points& vertices, const Faces& faces,
+                               std::size_t flowBytesPerVertex = kFlowBytesPerVertex);
 
 } // namespace massprops

@@ -1,10 +1,12 @@
 #include "core/solid.h"
 
+#include "core/components.h"
 #include "core/moments.h"
+#include "core/validity.h"
 
 #include <algorithm>
-#include <array>
-#include <map>
+#include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <string>
 #include <unordered_map>
@@ -42,39 +44,6 @@ private:
   std::vector<std::size_t> parent_;
 };
 
-/// Leaves out vertices that no face uses.
-TriangleMesh compacted(const TriangleMesh& mesh) {
-  std::vector<int> newIndex(static_cast<std::size_t>(mesh.vertices.rows()), -1);
-  for (Eigen::Index f = 0; f < mesh.faces.size(); ++f) {
-    newIndex[static_cast<std::size_t>(mesh.faces.data()[f])] = 0;
-  }
-  int next = 0;
-  for (int& index : newIndex) {
-    if (index == 0) index = next++;
-  }
-  TriangleMesh result;
-  result.vertices.resize(next, 3);
-  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
-    const int index = newIndex[static_cast<std::size_t>(v)];
-    if (index >= 0) result.vertices.row(index) = mesh.vertices.row(v);
-  }
-  result.faces = mesh.faces.unaryExpr([&](int v) { return newIndex[static_cast<std::size_t>(v)]; });
-  return result;
-}
-
-bool hasCoincidentVertices(const Points& vertices) {
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(vertices.rows()));
-  std::iota(order.begin(), order.end(), Eigen::Index{0});
-  const auto key = [&](Eigen::Index v) {
-    return std::array<double, 3>{vertices(v, 0), vertices(v, 1), vertices(v, 2)};
-  };
-  std::sort(order.begin(), order.end(),
-            [&](Eigen::Index a, Eigen::Index b) { return key(a) < key(b); });
-  return std::adjacent_find(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
-           return key(a) == key(b);
-         }) != order.end();
-}
-
 void requireFiniteTriangles(const TriangleMesh& mesh) {
   if (mesh.faces.rows() == 0) {
     throw InvalidInput(mesh.vertices.rows() == 0
@@ -91,18 +60,6 @@ void requireFiniteTriangles(const TriangleMesh& mesh) {
   if (mesh.faces.minCoeff() < 0 || mesh.faces.maxCoeff() >= mesh.vertices.rows()) {
     throw InvalidInput("The layer has faces that refer to vertices which do not exist: save and "
                        "open it again, then run again.");
-  }
-  std::size_t degenerate = 0;
-  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
-    const int a = mesh.faces(f, 0);
-    const int b = mesh.faces(f, 1);
-    const int c = mesh.faces(f, 2);
-    if (a == b || b == c || c == a) ++degenerate;
-  }
-  if (degenerate > 0) {
-    throw InvalidInput("The layer has " + count(degenerate, "face that uses", "faces that use") +
-                       " a vertex twice: use Cleaning and Repairing > Remove Zero Area Faces, "
-                       "then run again.");
   }
 }
 
@@ -126,13 +83,6 @@ void requireClosedManifoldEdges(const TriangleMesh& mesh) {
     if (faces > 2) ++nonManifold;
     if (faces == 2 && use.forward != use.backward) ++incoherent;
   }
-  if (boundary > 0 && hasCoincidentVertices(mesh.vertices)) {
-    throw InvalidInput("The surface is open along " +
-                       count(boundary, "boundary edge", "boundary edges") +
-                       ", and vertices lie on top of each other: use Cleaning and Repairing > "
-                       "Merge Close Vertices (and Close Holes if that is not enough), then run "
-                       "again.");
-  }
   if (nonManifold > 0) {
     throw InvalidInput("The surface has " +
                        count(nonManifold, "non-manifold edge", "non-manifold edges") +
@@ -142,7 +92,8 @@ void requireClosedManifoldEdges(const TriangleMesh& mesh) {
   if (boundary > 0) {
     throw InvalidInput("The surface is open along " +
                        count(boundary, "boundary edge", "boundary edges") +
-                       ": use Remeshing > Close Holes, then run again.");
+                       ": use Remeshing > Close Holes (Cleaning and Repairing > Merge Close "
+                       "Vertices first, if parts only seem joined), then run again.");
   }
   if (incoherent > 0) {
     throw InvalidInput("The faces on the two sides of " + count(incoherent, "edge", "edges") +
@@ -185,49 +136,85 @@ void requireManifoldVertices(const TriangleMesh& mesh) {
   }
 }
 
-void requireOneComponent(const TriangleMesh& mesh) {
-  DisjointSets components(static_cast<std::size_t>(mesh.vertices.rows()));
-  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
-    for (int k = 1; k < 3; ++k) {
-      components.unite(static_cast<std::size_t>(mesh.faces(f, 0)),
-                       static_cast<std::size_t>(mesh.faces(f, k)));
-    }
+void requireNoSelfIntersection(const TriangleMesh& mesh) {
+  const std::size_t crossing = selfIntersectingFaces(mesh.vertices, mesh.faces).size();
+  if (crossing > 0) {
+    throw InvalidInput("The surface crosses itself: " + count(crossing, "face", "faces") +
+                       " intersect others. Use Selection > Select Self Intersecting Faces, delete "
+                       "them and use Remeshing > Close Holes, then run again; parts that overlap "
+                       "are joined by Mesh Boolean: Union.");
   }
-  std::size_t roots = 0;
-  for (std::size_t v = 0; v < static_cast<std::size_t>(mesh.vertices.rows()); ++v) {
-    if (components.find(v) == v) ++roots;
+}
+
+double volumeOf(const Points& vertices, const Faces& faces) {
+  const Eigen::RowVector3d near = vertices.row(faces(0, 0));
+  return moments(vertices.rowwise() - near, faces)[0];
+}
+
+void turnRound(Faces& faces) {
+  faces.col(1).swap(faces.col(2));
+}
+
+Faces stacked(const std::vector<Faces>& parts) {
+  Eigen::Index rows = 0;
+  for (const Faces& part : parts) rows += part.rows();
+  Faces result(rows, 3);
+  rows = 0;
+  for (const Faces& part : parts) {
+    result.middleRows(rows, part.rows()) = part;
+    rows += part.rows();
   }
-  if (roots > 1) {
-    throw InvalidInput("The layer has " + std::to_string(roots) +
-                       " separate components: keep one of them (Mesh Layer > Split in Connected "
-                       "Components, or Cleaning and Repairing > Remove Isolated pieces (wrt "
-                       "Diameter)), or join them (Mesh Boolean: Union), then run again.");
-  }
+  return result;
 }
 
 } // namespace
 
-Solid makeSolid(const TriangleMesh& mesh) {
-  requireFiniteTriangles(mesh);
-  Solid solid;
-  solid.mesh_ = compacted(mesh);
-  requireClosedManifoldEdges(solid.mesh_);
-  requireManifoldVertices(solid.mesh_);
-  requireOneComponent(solid.mesh_);
+Solid makeSolid(const TriangleMesh& input) {
+  requireFiniteTriangles(input);
+  RepairedMesh repaired = mergedAndCompacted(input);
+  if (repaired.mesh.faces.rows() == 0) {
+    throw InvalidInput("The layer has only faces without area: open a model that is a solid body.");
+  }
+  requireClosedManifoldEdges(repaired.mesh);
+  requireManifoldVertices(repaired.mesh);
+  repaired = withoutZeroAreaFaces(std::move(repaired));
+  const TriangleMesh& mesh = repaired.mesh;
+  if (mesh.faces.rows() == 0) {
+    throw InvalidInput("The surface encloses no volume: open a model that is a solid body.");
+  }
+  requireNoSelfIntersection(mesh);
 
-  const Eigen::RowVector3d low = solid.mesh_.vertices.colwise().minCoeff();
-  const Eigen::RowVector3d high = solid.mesh_.vertices.colwise().maxCoeff();
-  solid.diagonal_ = (high - low).norm();
-  const Points centred = solid.mesh_.vertices.rowwise() - 0.5 * (low + high);
-  const double volume = moments(centred, solid.mesh_.faces)[0];
-  const double roundOff = 1e-12 * solid.diagonal_ * solid.diagonal_ * solid.diagonal_;
-  if (!(std::abs(volume) > roundOff)) {
-    throw InvalidInput("The surface encloses no volume: use a model that is a solid body.");
+  Solid solid;
+  solid.repairs_ = repaired.repairs;
+  const Eigen::RowVector3d extent =
+      mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff();
+  solid.diagonal_ = extent.norm();
+  const double roundOff = 1e-12 * std::pow(solid.diagonal_, 3);
+  Components components = connectedComponents(mesh.vertices.rows(), mesh.faces);
+  const std::vector<int> depths = nestingDepths(mesh.vertices, components);
+  std::vector<Faces> bodies;
+  std::vector<Faces> cavities;
+  for (std::size_t c = 0; c < components.size(); ++c) {
+    if (depths[c] > 1) {
+      throw InvalidInput("A part of the model lies loose inside of a cavity of another one: remove "
+                         "it (Mesh Layer > Split in Connected Components), then run again.");
+    }
+    const double volume = volumeOf(mesh.vertices, components[c]);
+    if (!(std::abs(volume) > roundOff)) {
+      throw InvalidInput("The surface, or a component of it, encloses no volume: use Cleaning and "
+                         "Repairing > Remove Isolated pieces (wrt Diameter), or open a model that "
+                         "is a solid body.");
+    }
+    const bool isCavity = depths[c] == 1;
+    if ((volume < 0.0) != isCavity) {
+      turnRound(components[c]);
+      ++solid.repairs_.turnedComponents;
+    }
+    (isCavity ? cavities : bodies).push_back(components[c]);
   }
-  if (volume < 0.0) {
-    solid.inverted_ = true;
-    solid.mesh_.faces.col(1).swap(solid.mesh_.faces.col(2));
-  }
+  solid.repairs_.replacedCavities = static_cast<int>(cavities.size());
+  solid.mesh_ = submesh(mesh.vertices, stacked(bodies)).mesh;
+  solid.cavities_ = submesh(mesh.vertices, stacked(cavities)).mesh;
   return solid;
 }
 

@@ -1,23 +1,10 @@
 #include "core/workpiece.h"
 
-#include "core/validity.h"
-
-#include <string>
-
 namespace massprops {
 namespace {
 
 /// A wall that common printers print and that carries a hand-sized model.
 constexpr double kDefaultWall = 0.01;
-
-void requireNoSelfIntersection(const Workpiece& piece) {
-  const std::size_t crossing = selfIntersectingFaces(piece.vertices, piece.faces).size();
-  if (crossing > 0) {
-    throw InvalidInput("The surface crosses itself: " + std::to_string(crossing) +
-                       " faces intersect others. Use Selection > Select Self Intersecting Faces, "
-                       "delete them and use Remeshing > Close Holes, then run again.");
-  }
-}
 
 } // namespace
 
@@ -35,7 +22,8 @@ Workpiece makeWorkpiece(const Solid& solid, const Options& options) {
   piece.vertices = snapped(toWorking(piece.frame, solid.vertices()));
   piece.wall = options.innerLowerBound.value_or(kDefaultWall * solid.diagonal()) / solid.diagonal();
   piece.faces = solid.faces();
-  requireNoSelfIntersection(piece);
+  piece.cavities = solid.cavities();
+  piece.cavities.vertices = toWorking(piece.frame, solid.cavities().vertices);
   return piece;
 }
 

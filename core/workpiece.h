@@ -10,13 +10,15 @@ namespace massprops {
 
 struct Workpiece {
   Frame frame;
-  Points vertices;     ///< n×3, working frame
-  Faces faces;         ///< outward
+  Points vertices; ///< n×3, working frame
+  Faces faces;     ///< outward
+  /// Existing cavities, working frame, oriented into them. The new cavity takes their place.
+  TriangleMesh cavities;
   ContactArea contact; ///< working lengths
   double wall = 0.0;   ///< working length
 };
 
-/// \throw InvalidInput when the model has nothing to stand on or crosses itself
+/// \throw InvalidInput when the model has nothing to stand on
 Workpiece makeWorkpiece(const Solid& solid, const Options& options);
 
 } // namespace massprops

@@ -21,9 +21,10 @@ const char* const kInfo =
     "outer "
     "surface. Wall thickness, material and filling are given; the cavity is a new layer whose "
     "normals point into the cavity, so that both layers together (<i>Flatten Visible Layers</i>) "
-    "bound the material. The numbers before and after are written to the log.<br>"
-    "The model must be one closed, manifold, coherently oriented surface. Lengths are read as "
-    "millimetres.<br><br>"
+    "bound the material. Its vertex quality is the wall thickness (<i>Colorize by vertex "
+    "Quality</i>). The numbers before and after are written to the log.<br>"
+    "The model must be closed, manifold and coherently oriented, and may have several parts; its "
+    "existing cavities are replaced. Lengths are read as millimetres.<br><br>"
     "The offsets of the cavity from the surface towards its mean curvature skeleton are a "
     "combination of the lowest harmonics of the surface.<br>"
     "See:<br>"
@@ -99,12 +100,18 @@ public:
     for (MeshModel* layer : added_) removeLayer(document_, layer);
   }
 
-  void add(const TriangleMesh& surface, const char* what) {
+  /// `quality`: a value for every vertex, or none.
+  void add(const TriangleMesh& surface, const char* what, const Vector& quality = {}) {
     added_.reserve(added_.size() + 1);
     MeshModel* layer = document_.addNewMesh("", input_.label() + " " + what, false);
     added_.push_back(layer);
     toVcg(surface, placement_, layer->cm);
     layer->cm.Tr = input_.cm.Tr;
+    if (quality.size() > 0) {
+      layer->updateDataMask(MeshModel::MM_VERTQUALITY);
+      Eigen::Index v = 0;
+      for (auto& vertex : layer->cm.vert) vertex.Q() = static_cast<Scalarm>(quality[v++]);
+    }
     updateBoxAndNormals(*layer);
   }
 
@@ -297,7 +304,9 @@ ReturnedValues MassPropertiesFilter::optimize(MeshDocument& document,
 
   NewLayers layers(document, *input);
   if (result.outer) layers.add(*result.outer, "outer offset surface");
-  if (result.inner.faces.rows() > 0) layers.add(result.inner, "inner offset surface");
+  if (result.inner.faces.rows() > 0) {
+    layers.add(result.inner, "inner offset surface", result.innerWall);
+  }
   layers.keep();
 
   ReturnedValues values;

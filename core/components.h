@@ -1,0 +1,27 @@
+// The connected parts of a surface, and which of them lie inside of which.
+#pragma once
+
+#include "core/types.h"
+
+#include <vector>
+
+namespace massprops {
+
+/// One closed component: rows of the mesh's faces, still indexing the mesh's vertices.
+using Components = std::vector<Faces>;
+
+/// The faces of each connected component, in the order of their first face.
+Components connectedComponents(Eigen::Index vertexCount, const Faces& faces);
+
+/// For every component how many others enclose it: 0 is outermost. Exact.
+/// \pre the components are closed and do not cross each other
+std::vector<int> nestingDepths(const Points& vertices, const Components& components);
+
+/// The mesh that `faces` describe, without vertices they do not use; order is kept.
+struct Submesh {
+  TriangleMesh mesh;
+  std::vector<int> vertexOf; ///< for every vertex its number in the whole mesh
+};
+Submesh submesh(const Points& vertices, const Faces& faces);
+
+} // namespace massprops
