@@ -11,7 +11,9 @@ namespace {
 
 constexpr int kMostRounds = 30;
 /// From this round on what fails becomes solid at once.
-constexpr int kPatience = 8;
+constexpr int kPatience = 10;
+/// Rounds that may fill narrow parts: each can lay bare a few more.
+constexpr int kTrims = 3;
 /// A step that was seen to clear most folds in one to three rounds.
 constexpr double kShrink = 0.6;
 constexpr double kBoundSlope = 1.0;
@@ -64,6 +66,22 @@ void calmOuter(const CavityTask& task, const CavityResult& result, const Neighbo
   bounds.lower = bounds.lower.cwiseMin(bounds.upper);
 }
 
+/// Marks vertices where the cavity is narrower than the wall: such a channel serves no goal, cannot
+/// be printed, and is where the surface folds first. Returns whether there were any.
+bool fillNarrowParts(const CavityTask& task, const Points& inner, const CavitySurface& cavity,
+                     std::vector<char>& solid) {
+  if (cavity.faces.rows() == 0) return false;
+  const Vector widths = SurfaceIndex(inner, cavity.faces).chords(inner, -task.field.directions);
+  bool any = false;
+  for (Eigen::Index v = 0; v < widths.size(); ++v) {
+    char& mark = solid[static_cast<std::size_t>(v)];
+    if (mark != 0 || widths[v] >= task.wall) continue;
+    mark = 1;
+    any = true;
+  }
+  return any;
+}
+
 void addMarks(std::vector<char>& solid, const std::vector<char>& more) {
   for (std::size_t v = 0; v < solid.size(); ++v) solid[v] = solid[v] != 0 || more[v] != 0 ? 1 : 0;
 }
@@ -110,6 +128,10 @@ CavityResult searchCavity(const CavityTask& task, const std::function<void(doubl
     result.evaluations += best.evaluations;
     result.stopReason = best.stopReason;
     OffsetSurfaces surfaces = offsetSurfaces(model, coefficients);
+    if (round < kTrims && fillNarrowParts(task, surfaces.inner, result.cavity, solid)) {
+      result.secondsOptimization += optimization.seconds();
+      continue;
+    }
     result.secondsOptimization += optimization.seconds();
 
     const Stopwatch inspection;
