@@ -540,7 +540,7 @@ TEST(Pipeline, SavesMaterialWhenVolumeHasWeight) {
 TEST(Pipeline, MovesTheOuterSurfaceLessWhenItsDisplacementHasWeight) {
   const Case& c = caseNamed("moving outer surface");
   Options options = c.options;
-  options.weights.outer = 1e4;
+  options.weights.outer = 1e3;
   const Result heavy = optimizeMassProperties(c.model, options);
   const auto meanSquare = [&](const Result& r) {
     return (r.outer->vertices - c.model.vertices).squaredNorm();
