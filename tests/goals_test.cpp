@@ -85,12 +85,12 @@ void expectGradientsMatch(const Goal& goal, const Moments& m) {
 TEST(StandGoal, HasTheGradientsOfItsValues) {
   const Moments m = momentsOf(transformed(blob(5), someRotation(), {0.2, -0.1, 0.7}));
   for (const ContactArea& area : {square(0.5), ellipse(0.3, 0.2)}) {
-    expectGradientsMatch(*makeStandGoal(area, kPublished), m);
+    expectGradientsMatch(*makeStandGoal(area, kPublished, 1.0), m);
   }
 }
 
 TEST(StandGoal, IsTheHeightAndTheSquaredDistanceFromTheContactCentre) {
-  const auto goal = makeStandGoal(square(1.0), kPublished);
+  const auto goal = makeStandGoal(square(1.0), kPublished, 1.0);
   EXPECT_NEAR(goal->objective(bodyAt({0.2, -0.3, 0.6})).value, 0.04 + 0.09 + 0.6, 1e-12);
   EXPECT_NEAR(goal->objective(bodyAt({0.2, -0.3, 0.6}, 7.0)).value, 0.04 + 0.09 + 0.6, 1e-12);
 }
@@ -99,13 +99,13 @@ TEST(StandGoal, ScalesItsObjectiveWithTheWeightOfTheCentreOfMass) {
   Weights triple;
   triple.centerOfMass = 3.0;
   const Moments m = bodyAt({0.2, -0.3, 0.6});
-  EXPECT_NEAR(makeStandGoal(square(1.0), triple)->objective(m).value,
-              3 * makeStandGoal(square(1.0), kPublished)->objective(m).value, 1e-12);
+  EXPECT_NEAR(makeStandGoal(square(1.0), triple, 1.0)->objective(m).value,
+              3 * makeStandGoal(square(1.0), kPublished, 1.0)->objective(m).value, 1e-12);
 }
 
 TEST(StandGoal, IsReachedExactlyAboveTheContactArea) {
   for (const ContactArea& area : {square(1.0), ellipse(0.5, 0.5)}) {
-    const auto goal = makeStandGoal(area, kPublished);
+    const auto goal = makeStandGoal(area, kPublished, 1.0);
     for (const double x : {0.0, 0.3, 0.49}) EXPECT_TRUE(goal->isReached(bodyAt({x, 0, 0.6})));
     for (const double x : {0.51, 2.0}) EXPECT_FALSE(goal->isReached(bodyAt({x, 0, 0.6})));
   }
@@ -115,7 +115,7 @@ TEST(StandGoal, HasConstraintsThatImplyStandingWithAMargin) {
   // Whatever satisfies the constraints stands; what is beyond the area violates them.
   Random random(17);
   for (const ContactArea& area : {square(0.8), ellipse(0.5, 0.25)}) {
-    const auto goal = makeStandGoal(area, kPublished);
+    const auto goal = makeStandGoal(area, kPublished, 1.0);
     int feasible = 0;
     for (int trial = 0; trial < 300; ++trial) {
       const Moments m = bodyAt({0.6 * random(), 0.6 * random(), 0.5 + 0.4 * random()});
@@ -134,13 +134,13 @@ TEST(StandGoal, HasConstraintsThatImplyStandingWithAMargin) {
 }
 
 TEST(StandGoal, NeedsTheCentreOfMassAboveTheGround) {
-  const auto goal = makeStandGoal(square(1.0), kPublished);
+  const auto goal = makeStandGoal(square(1.0), kPublished, 1.0);
   EXPECT_GT(goal->inequalities(bodyAt({0, 0, -0.1})).values.maxCoeff(), 0.0);
   EXPECT_LE(goal->inequalities(bodyAt({0, 0, 0.1})).values.maxCoeff(), 0.0);
 }
 
 TEST(StandGoal, ReportsTheTippingAngle) {
-  const auto goal = makeStandGoal(square(1.0), kPublished);
+  const auto goal = makeStandGoal(square(1.0), kPublished, 1.0);
   const Report stands = described(*goal, bodyAt({0, 0, 0.5}));
   EXPECT_NEAR(number(stands, "tip_angle_after"), 45.0, 1e-9);
   EXPECT_TRUE(truth(stands, "stands_after"));
@@ -156,7 +156,7 @@ TEST(StandGoal, KeepsManyCornersOfARoundFoot) {
     const double t = 2 * std::acos(-1.0) * i / 1000;
     round.polygon.emplace_back(0.3 * std::cos(t), 0.3 * std::sin(t));
   }
-  const auto goal = makeStandGoal(round, kPublished);
+  const auto goal = makeStandGoal(round, kPublished, 1.0);
   EXPECT_LT(goal->inequalities(bodyAt({0, 0, 0.5})).values.size(), 100);
   for (int i = 0; i < 64; ++i) {
     const double t = 0.1 * i;

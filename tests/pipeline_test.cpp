@@ -289,8 +289,13 @@ TEST_P(EveryResult, SaysSolvedOnlyIfTheVerdictIsPositive) {
 }
 
 TEST_P(EveryResult, IsNeverWorseThanTheSolid) {
-  const Result& result = resultOf(GetParam());
-  EXPECT_LT(number(result, "objective_after"), number(result, "objective_before"));
+  // Nearer to its constraints, or as near and with a lower objective.
+  const Case& c = GetParam();
+  const Result& result = resultOf(c);
+  const bool nearer = c.options.goal == GoalKind::Stand
+                          ? number(result, "tip_angle_after") > number(result, "tip_angle_before")
+                          : number(result, "axis_tilt_after") < number(result, "axis_tilt_before");
+  EXPECT_TRUE(nearer || number(result, "objective_after") < number(result, "objective_before"));
   EXPECT_GT(number(result, "volume_after"), 0.0);
 }
 
@@ -535,7 +540,7 @@ TEST(Pipeline, SavesMaterialWhenVolumeHasWeight) {
 TEST(Pipeline, MovesTheOuterSurfaceLessWhenItsDisplacementHasWeight) {
   const Case& c = caseNamed("moving outer surface");
   Options options = c.options;
-  options.weights.outer = 1e4;
+  options.weights.outer = 1e3;
   const Result heavy = optimizeMassProperties(c.model, options);
   const auto meanSquare = [&](const Result& r) {
     return (r.outer->vertices - c.model.vertices).squaredNorm();

@@ -1,0 +1,292 @@
+// Graphs, distances, exact checks and the parts of the cavity, on shapes where the answer is known.
+#include "core/cavity.h"
+#include "core/graph.h"
+#include "core/offset_field.h"
+#include "core/skeleton.h"
+#include "core/spatial.h"
+#include "core/validity.h"
+
+#include "core/frame.h"
+
+#include "checks.h"
+#include "shapes.h"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <vector>
+
+namespace massprops::testing {
+namespace {
+
+Neighbours neighboursOf(const TriangleMesh& mesh) {
+  return vertexNeighbours(mesh.vertices.rows(), mesh.faces);
+}
+
+// ---------------------------------------------------------------- graph
+
+TEST(VertexNeighbours, AreSymmetricAscendingAndSixOnARegularMesh) {
+  const Neighbours neighbours = neighboursOf(sphere(4));
+  int five = 0;
+  for (std::size_t v = 0; v < neighbours.size(); ++v) {
+    EXPECT_TRUE(std::is_sorted(neighbours[v].begin(), neighbours[v].end()));
+    five += neighbours[v].size() == 5 ? 1 : 0;
+    for (const int w : neighbours[v]) {
+      const auto& back = neighbours[static_cast<std::size_t>(w)];
+      EXPECT_TRUE(std::binary_search(back.begin(), back.end(), static_cast<int>(v)));
+    }
+  }
+  EXPECT_EQ(five, 12); // the corners of the icosahedron
+}
+
+TEST(Lipschitz, FunctionsAreTheTightestOnesThatKeepTheSlope) {
+  const TriangleMesh mesh = blob(6);
+  const Neighbours neighbours = neighboursOf(mesh);
+  const Vector values = Random(51).vector(mesh.vertices.rows());
+  const double slope = 0.8;
+  const Vector below = lipschitzBelow(mesh.vertices, neighbours, values, slope);
+  const Vector above = lipschitzAbove(mesh.vertices, neighbours, values, slope);
+  EXPECT_LE((below - values).maxCoeff(), 0.0);
+  EXPECT_GE((above - values).minCoeff(), 0.0);
+  for (std::size_t v = 0; v < neighbours.size(); ++v) {
+    const auto i = static_cast<Eigen::Index>(v);
+    // Tight: no vertex can be raised without breaking its own value or the slope to a neighbour.
+    double highest = values[i];
+    for (const int w : neighbours[v]) {
+      const double length = (mesh.vertices.row(i) - mesh.vertices.row(w)).norm();
+      EXPECT_LE(std::abs(below[i] - below[w]), slope * length + 1e-14);
+      EXPECT_LE(std::abs(above[i] - above[w]), slope * length + 1e-14);
+      highest = std::min(highest, below[w] + slope * length);
+    }
+    EXPECT_NEAR(below[i], highest, 1e-14);
+  }
+}
+
+// ---------------------------------------------------------------- distances
+
+TEST(Chords, ThroughABallHaveTheLengthOfTheChord) {
+  const TriangleMesh ball = sphere(12);
+  const SurfaceIndex index(ball.vertices, ball.faces);
+  Points towards = -ball.vertices;
+  // Through the centre: 2, up to the depth of the polyhedron's faces.
+  const Vector diameters = index.chords(ball.vertices, towards);
+  EXPECT_NEAR(diameters.minCoeff(), 2.0, 0.01);
+  EXPECT_NEAR(diameters.maxCoeff(), 2.0, 1e-12);
+  EXPECT_TRUE((index.chords(ball.vertices, ball.vertices).array() ==
+               std::numeric_limits<double>::infinity())
+                  .all()); // outwards nothing is hit
+}
+
+TEST(SurfaceDistances, OfConcentricBoxesAreTheirGap) {
+  const TriangleMesh outer = box({1.2, 1.4, 1.6}, 2);
+  const TriangleMesh inner = box({1, 1, 1}, 3);
+  const Vector distances =
+      surfaceDistances(inner.vertices, inner.faces, outer.vertices, outer.faces, 0.5);
+  EXPECT_NEAR(distances.minCoeff(), 0.1, 1e-12);
+}
+
+TEST(SurfaceDistances, SeeCrossingEdgesWhoseEndsAreFar) {
+  const double quarter = std::acos(-1.0) / 4;
+  const TriangleMesh barX = transformed(box({4, 1, 1}, 1), rotation(Vec3::UnitX(), quarter));
+  const TriangleMesh barY =
+      transformed(transformed(box({1, 4, 1}, 1), rotation(Vec3::UnitY(), quarter)),
+                  Mat3::Identity(), {0, 0, 2});
+  const Vector distances =
+      surfaceDistances(barX.vertices, barX.faces, barY.vertices, barY.faces, 1.0);
+  EXPECT_NEAR(distances.minCoeff(), 2 - std::sqrt(2.0), 1e-12);
+}
+
+TEST(SurfaceDistances, HaveTheLeastDistanceOfAnyTwoTriangles) {
+  const TriangleMesh outer = blob(6);
+  const TriangleMesh inner = transformed(blob(5), 0.8 * Mat3::Identity(), {0.03, 0.02, -0.05});
+  const Vector distances =
+      surfaceDistances(inner.vertices, inner.faces, outer.vertices, outer.faces, 0.5);
+  EXPECT_NEAR(distances.minCoeff(), leastDistance(inner, outer), 1e-12);
+}
+
+// ---------------------------------------------------------------- exact checks
+
+TEST(SelfIntersectingFaces, AgreeWithTheCheckPairByPair) {
+  EXPECT_TRUE(selfIntersectingFaces(blob(6).vertices, blob(6).faces).empty());
+  TriangleMesh pierced = sphere(5);
+  pierced.vertices.row(0) *= -1.5;
+  EXPECT_FALSE(selfIntersectingFaces(pierced.vertices, pierced.faces).empty());
+  EXPECT_GT(intersectingPairs(pierced), 0U);
+}
+
+TEST(CrossingFaces, AreThoseOfTheInnerSurfaceThatMeetTheOuterOne) {
+  const TriangleMesh outer = sphere(6);
+  const TriangleMesh inside = scaled(outer, 0.5);
+  EXPECT_TRUE(crossingFaces(inside.vertices, inside.faces, outer.vertices, outer.faces).empty());
+  const TriangleMesh across = transformed(inside, Mat3::Identity(), {0.7, 0, 0});
+  const std::vector<int> crossing =
+      crossingFaces(across.vertices, across.faces, outer.vertices, outer.faces);
+  ASSERT_FALSE(crossing.empty());
+  // Each of them has corners near the outer sphere, within an edge length.
+  for (const int f : crossing) {
+    const double radius = across.vertices.row(across.faces(f, 0)).norm();
+    EXPECT_NEAR(radius, 1.0, 0.15);
+  }
+}
+
+TEST(InsideOf, SeparatesTheInsideOfARing) {
+  const TriangleMesh ring = torus(2, 0.5, 24, 12);
+  Points points(4, 3);
+  points << 2, 0, 0, 0, 0, 0, -2, 0.1, 0.2, 9, 0, 0;
+  EXPECT_EQ(insideOf(points, ring.vertices, ring.faces),
+            (std::vector<bool>{true, false, true, false}));
+}
+
+// ---------------------------------------------------------------- cavity surface
+
+TEST(CavitySurface, IsTheWholeSurfaceWhereNothingIsSolid) {
+  const TriangleMesh mesh = blob(5);
+  const std::vector<char> none(static_cast<std::size_t>(mesh.vertices.rows()), 0);
+  const CavitySurface cavity = cavitySurface(mesh.vertices, mesh.faces, none);
+  EXPECT_EQ(cavity.faces, mesh.faces);
+  EXPECT_EQ(cavity.solid, none);
+}
+
+TEST(CavitySurface, IsEmptyWhereEverythingIsSolid) {
+  const TriangleMesh mesh = blob(5);
+  const std::vector<char> all(static_cast<std::size_t>(mesh.vertices.rows()), 1);
+  EXPECT_EQ(cavitySurface(mesh.vertices, mesh.faces, all).faces.rows(), 0);
+}
+
+/// What is left of the vertices that the faces use, as a mesh.
+TriangleMesh used(const Points& vertices, const Faces& faces) {
+  std::vector<int> index(static_cast<std::size_t>(vertices.rows()), -1);
+  std::vector<int> kept;
+  TriangleMesh mesh;
+  mesh.faces = faces;
+  for (Eigen::Index i = 0; i < mesh.faces.size(); ++i) {
+    int& v = mesh.faces.data()[i];
+    int& at = index[static_cast<std::size_t>(v)];
+    if (at < 0) {
+      at = static_cast<int>(kept.size());
+      kept.push_back(v);
+    }
+    v = at;
+  }
+  mesh.vertices.resize(static_cast<Eigen::Index>(kept.size()), 3);
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    mesh.vertices.row(static_cast<Eigen::Index>(i)) = vertices.row(kept[i]);
+  return mesh;
+}
+
+TEST(CavitySurface, IsClosedByCapsWhereTheSolidPartsBegin) {
+  // Solid at random, at one end, and in a belt that cuts the cavity in two.
+  const TriangleMesh mesh = ellipsoid({1, 1, 3}, 10);
+  for (int kind = 0; kind < 3; ++kind) {
+    std::vector<char> solid(static_cast<std::size_t>(mesh.vertices.rows()), 0);
+    Random random(61);
+    for (std::size_t v = 0; v < solid.size(); ++v) {
+      const double z = mesh.vertices(static_cast<Eigen::Index>(v), 2);
+      const bool marked = kind == 0 ? random() > 0.9 : kind == 1 ? z > 1.5 : std::abs(z) < 0.5;
+      solid[v] = marked ? 1 : 0;
+    }
+    const CavitySurface cavity = cavitySurface(mesh.vertices, mesh.faces, solid);
+    ASSERT_GT(cavity.faces.rows(), 0) << kind;
+    const TriangleMesh surface = used(mesh.vertices, cavity.faces);
+    EXPECT_TRUE(isClosedAndOriented(surface)) << kind;
+    EXPECT_GT(quadratureMoments(surface)[0], 0.0) << kind;
+    for (std::size_t v = 0; v < solid.size(); ++v) {
+      EXPECT_GE(cavity.solid[v], solid[v]); // solid stays solid
+    }
+    for (Eigen::Index i = 0; i < cavity.faces.size(); ++i) {
+      EXPECT_EQ(cavity.solid[static_cast<std::size_t>(cavity.faces.data()[i])], 0);
+    }
+    if (kind == 2) {
+      EXPECT_EQ(eulerCharacteristic(surface), 4); // two spheres
+    }
+  }
+}
+
+// ---------------------------------------------------------------- skeleton and directions
+
+TriangleMesh working(const TriangleMesh& mesh) {
+  const double size =
+      (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).norm();
+  TriangleMesh result = scaled(mesh, 1 / size);
+  result.vertices = snapped(result.vertices);
+  return result;
+}
+
+TEST(MeanCurvatureSkeleton, OfACapsuleIsItsAxis) {
+  const TriangleMesh mesh = working(capsule(0.5, 4, 24));
+  const Points skeleton = meanCurvatureSkeleton(mesh.vertices, mesh.faces);
+  ASSERT_EQ(skeleton.rows(), mesh.vertices.rows());
+  EXPECT_TRUE(skeleton.allFinite());
+  const double radius = 0.5 / 4.97; // of the diagonal
+  EXPECT_LT(skeleton.leftCols(2).rowwise().norm().maxCoeff(), 0.25 * radius);
+  // A point of the side belongs to the point of the axis at about its own height.
+  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
+    if (std::abs(mesh.vertices(v, 2)) < 0.3) {
+      EXPECT_NEAR(skeleton(v, 2), mesh.vertices(v, 2), radius);
+    }
+  }
+}
+
+TEST(MeanCurvatureSkeleton, IsTheSameBitForBitTheSecondTime) {
+  const TriangleMesh mesh = working(figure(2));
+  const Points first = meanCurvatureSkeleton(mesh.vertices, mesh.faces);
+  std::vector<std::unique_ptr<char[]>> blocks;
+  for (int i = 0; i < 20000; ++i)
+    if (i % 3 != 0)
+      blocks.push_back(std::make_unique<char[]>(static_cast<std::size_t>(24 + i % 97)));
+  EXPECT_EQ(meanCurvatureSkeleton(mesh.vertices, mesh.faces), first);
+}
+
+TEST(OffsetField, LeadsInwardsFromAllFacesAndEndsWithinTheBody) {
+  const TriangleMesh mesh = working(figure(3));
+  const SparseMatrix L = cotanLaplacian(mesh.vertices, mesh.faces);
+  const Vector mass = vertexLumpedMass(mesh.vertices, mesh.faces);
+  const Points skeleton = meanCurvatureSkeleton(mesh.vertices, mesh.faces);
+  const OffsetField field = offsetField(mesh.vertices, mesh.faces, skeleton, L, mass, 0.02);
+  EXPECT_LT((field.directions.rowwise().norm().array() - 1.0).abs().maxCoeff(), 1e-12);
+  EXPECT_GT(field.reach.minCoeff(), 0.0);
+
+  // The clearance is what it says.
+  Vector clearance = Vector::Ones(mesh.vertices.rows());
+  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
+    const Vec3 a = mesh.vertices.row(mesh.faces(f, 0)).transpose();
+    const Vec3 b = mesh.vertices.row(mesh.faces(f, 1)).transpose();
+    const Vec3 c = mesh.vertices.row(mesh.faces(f, 2)).transpose();
+    const Vec3 normal = (b - a).cross(c - a).normalized();
+    for (int k = 0; k < 3; ++k) {
+      const int v = mesh.faces(f, k);
+      clearance[v] = std::min(clearance[v], normal.dot(field.directions.row(v).transpose()));
+    }
+  }
+  EXPECT_LT((clearance - field.clearance).cwiseAbs().maxCoeff(), 1e-12);
+
+  // All ends of the offsets lie inside of the body where there is a way inwards.
+  int outside = 0;
+  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
+    if (field.clearance[v] <= 0.0) continue;
+    const Vec3 end =
+        (mesh.vertices.row(v) - 0.9 * field.reach[v] * field.directions.row(v)).transpose();
+    if (windingNumber(mesh, end) < 0.5) ++outside;
+  }
+  EXPECT_EQ(outside, 0);
+}
+
+TEST(OffsetField, OfABallPointsAwayFromItsCentre) {
+  const TriangleMesh mesh = working(sphere(8));
+  const SparseMatrix L = cotanLaplacian(mesh.vertices, mesh.faces);
+  const Vector mass = vertexLumpedMass(mesh.vertices, mesh.faces);
+  const Points centre = Points::Zero(mesh.vertices.rows(), 3);
+  const OffsetField field = offsetField(mesh.vertices, mesh.faces, centre, L, mass, 0.02);
+  const double radius = mesh.vertices.row(0).norm();
+  EXPECT_LT((field.directions - mesh.vertices / radius).rowwise().norm().maxCoeff(), 1e-7);
+  // Half of the chord through a polyhedron is up to 1 % short of the radius here.
+  EXPECT_NEAR(field.reach.maxCoeff(), radius, 1e-7);
+  EXPECT_GT(field.reach.minCoeff(), 0.98 * radius);
+}
+
+} // namespace
+} // namespace massprops::testing
