@@ -57,7 +57,7 @@ Points meanCurvatureSkeleton(const Points& vertices, const Faces& faces) {
   for (const auto node : CGAL::make_range(boost::vertices(skeleton))) {
     const Kernel::Point_3& p = skeleton[node].point;
     for (const auto vertex : skeleton[node].vertices) {
-      const std::size_t v = static_cast<std::size_t>(vertex);
+      const auto v = static_cast<std::size_t>(vertex);
       points.row(static_cast<Eigen::Index>(v)) << p.x(), p.y(), p.z();
       reached[v] = 1;
     }
