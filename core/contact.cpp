@@ -40,7 +40,7 @@ double signedArea(const std::vector<Vec2>& polygon) {
 }
 
 Vec2 centroid(const std::vector<Vec2>& polygon) {
-  const Vec2 base = polygon.front();
+  const Vec2& base = polygon.front();
   Vec2 sum = Vec2::Zero();
   double twice = 0.0;
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
@@ -58,7 +58,7 @@ double signedDistance(const std::vector<Vec2>& polygon, const Vec2& c) {
   double inside = std::numeric_limits<double>::infinity();
   double outside = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec2 p = polygon[i];
+    const Vec2& p = polygon[i];
     const Vec2 edge = polygon[(i + 1) % polygon.size()] - p;
     inside = std::min(inside, cross(edge, c - p) / edge.norm());
     const double t = std::clamp(edge.dot(c - p) / edge.squaredNorm(), 0.0, 1.0);

@@ -30,6 +30,8 @@ class ScaledProblem {
 public:
   ScaledProblem(const Problem& problem, const Vector& start, const OptimizeOptions& options)
       : problem_(problem), options_(options) {
+    best_.objective = std::numeric_limits<double>::infinity();
+    best_.violation = std::numeric_limits<double>::infinity();
     const Evaluation& e = at(start);
     objectiveScale_ =
         options.objectiveScale.value_or(scaleFor(e.objectiveGradient.norm(), kGradientNorm));
@@ -119,8 +121,7 @@ private:
   OptimizeOptions options_;
   std::vector<double> point_;
   Evaluation evaluation_;
-  OptimizeResult best_{
-      {}, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), 0, {}};
+  OptimizeResult best_;
   double bestEvaluationViolation_ = 0.0;
   double objectiveScale_ = 1.0;
   Vector equalityScales_;

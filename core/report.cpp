@@ -1,16 +1,20 @@
 #include "core/report.h"
 
 #include <algorithm>
-#include <cstdio>
+#include <array>
+#include <charconv>
 #include <stdexcept>
 
 namespace massprops {
 namespace {
 
 std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", value);
-  return text;
+  // Not printf: a host may have set a locale with a decimal comma.
+  std::array<char, 32> text{};
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 9)
+          .ptr;
+  return {text.data(), end};
 }
 
 std::string tuple(const Vec3& v) {
