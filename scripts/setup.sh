@@ -10,7 +10,7 @@ cd "$(dirname "$0")/.."
 packages="
   meshlab dpkg-dev
   g++ cmake ninja-build
-  libcgal-dev libeigen3-dev libspectra-dev libnlopt-dev
+  libcgal-dev libeigen3-dev libspectra-dev libnlopt-dev libnlopt-cxx-dev
   qtbase5-dev libqt5opengl5-dev libglew-dev libgl-dev
   libgtest-dev libbenchmark-dev clang-format-14 clang-tidy-14
   xvfb xauth libgl1-mesa-dri
