@@ -2,15 +2,19 @@
 
 #include "core/components.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 #include <Spectra/SymEigsShiftSolver.h>
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace massprops {
 namespace {
+
+constexpr Eigen::Index kDenseSize = 256;
 
 /// The generalised problem as a standard one, A = M^{-1/2} L M^{-1/2}; Spectra asks for
 /// y = (A − σ)⁻¹ x = M^{1/2} (L − σM)⁻¹ M^{1/2} x.
@@ -24,7 +28,10 @@ public:
   Eigen::Index rows() const { return L_.rows(); }
   Eigen::Index cols() const { return L_.cols(); }
 
+  /// Spectra calls this for every solve; the factorisation serves all with the same shift.
   void set_shift(double sigma) {
+    if (sigma == shift_) return;
+    shift_ = sigma;
     SparseMatrix shifted = L_;
     shifted.diagonal() -= sigma * mass_;
     solver_.compute(shifted);
@@ -37,16 +44,84 @@ public:
   void perform_op(const double* x, double* y) const {
     const Eigen::Map<const Vector> in(x, rows());
     Eigen::Map<Vector> out(y, rows());
-    const Vector rhs = rootMass_.cwiseProduct(in);
-    out = rootMass_.cwiseProduct(solver_.solve(rhs));
+    const Vector rhs = rootMass_.cwiseProduct(outside(in));
+    out = outside(rootMass_.cwiseProduct(solver_.solve(rhs)));
   }
 
+  /// From now on works in the complement of the orthonormal columns of `found` (n×m).
+  void deflate(const Matrix& found) { found_ = found; }
+
 private:
+  Vector outside(const Vector& x) const {
+    return found_.cols() == 0 ? x : Vector(x - found_ * (found_.transpose() * x));
+  }
+
   const SparseMatrix& L_;
   const Vector& mass_;
   Vector rootMass_;
+  Matrix found_;
+  double shift_ = 0.0;
   Eigen::SimplicialLDLT<SparseMatrix> solver_;
 };
+
+/// Eigenvalues ascending, n×k orthonormal eigenvectors of the standard problem.
+struct Modes {
+  Vector values;
+  Matrix vectors;
+};
+
+Modes lowestModes(ShiftInvertedLaplacian& op, int k, double shift) {
+  const int n = static_cast<int>(op.rows());
+  const int krylovSize = std::min(n, std::max(2 * k + 1, k + 20));
+  Spectra::SymEigsShiftSolver<ShiftInvertedLaplacian> solver(op, k, krylovSize, shift);
+  solver.init();
+  solver.compute(Spectra::SortRule::LargestMagn, 1000, 1e-12, Spectra::SortRule::SmallestAlge);
+  if (solver.info() != Spectra::CompInfo::Successful) {
+    throw std::runtime_error("the harmonic basis did not converge: lower basis_k, or use "
+                             "Remeshing > Isotropic Explicit Remeshing, then run again");
+  }
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+/// For small meshes, whose Krylov spaces would be nearly the whole space.
+Modes lowestModesDense(const SparseMatrix& L, const Vector& mass, int k) {
+  const Vector scale = mass.cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(
+      Matrix(scale.asDiagonal() * Matrix(L) * scale.asDiagonal()));
+  return {solver.eigenvalues().head(k), solver.eigenvectors().leftCols(k)};
+}
+
+/// The k lowest of both.
+Modes merged(const Modes& a, const Modes& b, int k) {
+  std::vector<std::pair<double, Vector>> all;
+  for (const Modes* modes : {&a, &b}) {
+    for (Eigen::Index j = 0; j < modes->values.size(); ++j) {
+      all.emplace_back(modes->values[j], modes->vectors.col(j));
+    }
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const auto& p, const auto& q) { return p.first < q.first; });
+  Modes result{Vector(k), Matrix(a.vectors.rows(), k)};
+  for (int j = 0; j < k; ++j) {
+    result.values[j] = all[static_cast<std::size_t>(j)].first;
+    result.vectors.col(j) = all[static_cast<std::size_t>(j)].second;
+  }
+  return result;
+}
+
+/// A Krylov space holds one direction of every eigenspace, so that copies of a multiple eigenvalue
+/// may be missing: looks again in the complement of what was found until nothing lower is left.
+Modes lowestModesWithCopies(const SparseMatrix& L, const Vector& mass, int k, double shift) {
+  ShiftInvertedLaplacian op(L, mass);
+  Modes modes = lowestModes(op, k, shift);
+  for (int round = 0; round < k; ++round) {
+    op.deflate(modes.vectors);
+    const Modes next = lowestModes(op, 1, shift);
+    if (next.values[0] > modes.values[k - 1] * (1.0 + 1e-9)) break;
+    modes = merged(modes, next, k);
+  }
+  return modes;
+}
 
 } // namespace
 
@@ -54,19 +129,11 @@ HarmonicBasis harmonicBasis(const SparseMatrix& L, const Vector& mass, int k) {
   // L is singular; a shift of a tenth of the smallest possible eigenvalue scale 1/total mass keeps
   // the factorisation regular without costing accuracy.
   const double shift = -0.1 / mass.sum();
-  const auto n = static_cast<int>(L.rows());
-  const int krylovSize = std::min(n, std::max(2 * k + 1, k + 20));
-  ShiftInvertedLaplacian op(L, mass);
-  Spectra::SymEigsShiftSolver<ShiftInvertedLaplacian> solver(op, k, krylovSize, shift);
-  solver.init();
-  solver.compute(Spectra::SortRule::LargestMagn, 1000, 1e-12, Spectra::SortRule::SmallestAlge);
-  if (solver.info() != Spectra::CompInfo::Successful) {
-    throw std::runtime_error("the harmonic basis did not converge: lower basis_k, or use "
-                             "Remeshing: Isotropic Explicit Remeshing, then run again");
-  }
+  const Modes modes = L.rows() <= kDenseSize ? lowestModesDense(L, mass, k)
+                                             : lowestModesWithCopies(L, mass, k, shift);
   HarmonicBasis basis;
-  basis.eigenvalues = solver.eigenvalues();
-  basis.functions = mass.cwiseSqrt().cwiseInverse().asDiagonal() * solver.eigenvectors();
+  basis.eigenvalues = modes.values;
+  basis.functions = mass.cwiseSqrt().cwiseInverse().asDiagonal() * modes.vectors;
   for (Eigen::Index j = 0; j < basis.functions.cols(); ++j) {
     Eigen::Index largest = 0;
     basis.functions.col(j).cwiseAbs().maxCoeff(&largest);

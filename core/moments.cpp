@@ -23,7 +23,8 @@ SymmetricSix square(const Row3& p) {
 } // namespace
 
 Moments moments(const Points& vertices, const Faces& faces) {
-  // Signed tetrahedra (0, a, b, c) with D = a·(b×c), s = a+b+c:
+  // Signed tetrahedra (0, a, b, c) with D = a·(b×c) = a·((b−a)×(c−a)), s = a+b+c; the second form
+  // cancels less far from the origin.
   // ∫1 = D/6, ∫x = D s/24, ∫x xᵀ = D (s sᵀ + a aᵀ + b bᵀ + c cᵀ)/120.
   double volume = 0.0;
   Row3 first = Row3::Zero();
@@ -32,7 +33,7 @@ Moments moments(const Points& vertices, const Faces& faces) {
     const Row3 a = vertices.row(faces(f, 0));
     const Row3 b = vertices.row(faces(f, 1));
     const Row3 c = vertices.row(faces(f, 2));
-    const double D = a.dot(b.cross(c));
+    const double D = a.dot((b - a).cross(c - a));
     const Row3 s = a + b + c;
     volume += D;
     first += D * s;

@@ -182,7 +182,6 @@ Solid makeSolid(const TriangleMesh& input) {
   if (mesh.faces.rows() == 0) {
     throw InvalidInput("The surface encloses no volume: open a model that is a solid body.");
   }
-  requireNoSelfIntersection(mesh);
 
   Solid solid;
   solid.repairs_ = repaired.repairs;
@@ -191,6 +190,16 @@ Solid makeSolid(const TriangleMesh& input) {
   solid.diagonal_ = extent.norm();
   const double roundOff = 1e-12 * std::pow(solid.diagonal_, 3);
   Components components = connectedComponents(mesh.vertices.rows(), mesh.faces);
+  std::vector<double> volumes;
+  for (const Faces& component : components) {
+    volumes.push_back(volumeOf(mesh.vertices, component));
+    if (!(std::abs(volumes.back()) > roundOff)) {
+      throw InvalidInput("The surface, or a component of it, encloses no volume: use Cleaning and "
+                         "Repairing > Remove Isolated pieces (wrt Diameter), or open a model that "
+                         "is a solid body.");
+    }
+  }
+  requireNoSelfIntersection(mesh);
   const std::vector<int> depths = nestingDepths(mesh.vertices, components);
   std::vector<Faces> bodies;
   std::vector<Faces> cavities;
@@ -199,14 +208,8 @@ Solid makeSolid(const TriangleMesh& input) {
       throw InvalidInput("A part of the model lies loose inside of a cavity of another one: remove "
                          "it (Mesh Layer > Split in Connected Components), then run again.");
     }
-    const double volume = volumeOf(mesh.vertices, components[c]);
-    if (!(std::abs(volume) > roundOff)) {
-      throw InvalidInput("The surface, or a component of it, encloses no volume: use Cleaning and "
-                         "Repairing > Remove Isolated pieces (wrt Diameter), or open a model that "
-                         "is a solid body.");
-    }
     const bool isCavity = depths[c] == 1;
-    if ((volume < 0.0) != isCavity) {
+    if ((volumes[c] < 0.0) != isCavity) {
       turnRound(components[c]);
       ++solid.repairs_.turnedComponents;
     }

@@ -5,7 +5,6 @@
 #include <CGAL/AABB_tree.h>
 #include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Simple_cartesian.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +15,8 @@
 namespace massprops {
 namespace {
 
-using Kernel = CGAL::Simple_cartesian<double>;
+/// Exact predicates: a ray through an edge or a vertex must not slip between the triangles.
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Triangles = std::vector<Kernel::Triangle_3>;
 using Segments = std::vector<Kernel::Segment_3>;
 using TrianglePrimitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;

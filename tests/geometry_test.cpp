@@ -218,7 +218,7 @@ TriangleMesh working(const TriangleMesh& mesh) {
 
 TEST(MeanCurvatureSkeleton, OfACapsuleIsItsAxis) {
   const TriangleMesh mesh = working(capsule(0.5, 4, 24));
-  const Points skeleton = meanCurvatureSkeleton(mesh.vertices, mesh.faces);
+  const Points skeleton = meanCurvatureSkeleton(mesh.vertices, mesh.faces).points;
   ASSERT_EQ(skeleton.rows(), mesh.vertices.rows());
   EXPECT_TRUE(skeleton.allFinite());
   const double radius = 0.5 / 4.97; // of the diagonal
@@ -233,19 +233,19 @@ TEST(MeanCurvatureSkeleton, OfACapsuleIsItsAxis) {
 
 TEST(MeanCurvatureSkeleton, IsTheSameBitForBitTheSecondTime) {
   const TriangleMesh mesh = working(figure(2));
-  const Points first = meanCurvatureSkeleton(mesh.vertices, mesh.faces);
+  const Points first = meanCurvatureSkeleton(mesh.vertices, mesh.faces).points;
   std::vector<std::unique_ptr<char[]>> blocks;
   for (int i = 0; i < 20000; ++i)
     if (i % 3 != 0)
       blocks.push_back(std::make_unique<char[]>(static_cast<std::size_t>(24 + i % 97)));
-  EXPECT_EQ(meanCurvatureSkeleton(mesh.vertices, mesh.faces), first);
+  EXPECT_EQ(meanCurvatureSkeleton(mesh.vertices, mesh.faces).points, first);
 }
 
 TEST(OffsetField, LeadsInwardsFromAllFacesAndEndsWithinTheBody) {
   const TriangleMesh mesh = working(figure(3));
   const SparseMatrix L = cotanLaplacian(mesh.vertices, mesh.faces);
   const Vector mass = vertexLumpedMass(mesh.vertices, mesh.faces);
-  const Points skeleton = meanCurvatureSkeleton(mesh.vertices, mesh.faces);
+  const Points skeleton = meanCurvatureSkeleton(mesh.vertices, mesh.faces).points;
   const OffsetField field = offsetField(mesh.vertices, mesh.faces, skeleton, L, mass, 0.02);
   EXPECT_LT((field.directions.rowwise().norm().array() - 1.0).abs().maxCoeff(), 1e-12);
   EXPECT_GT(field.reach.minCoeff(), 0.0);
