@@ -16,6 +16,8 @@ constexpr int kPatience = 10;
 constexpr int kTrims = 3;
 /// A step that was seen to clear most folds in one to three rounds.
 constexpr double kShrink = 0.6;
+/// The outer surface starts near where it was: it is to look the same.
+constexpr double kOuterStart = 0.1;
 constexpr double kBoundSlope = 1.0;
 /// Neighbours share a missing wall: correcting each by a little more needs fewer rounds.
 constexpr double kOverstep = 1.5;
@@ -104,9 +106,10 @@ CavityResult searchCavity(const CavityTask& task, const std::function<void(doubl
       task.vertices, task.faces, task.field.directions, task.basis,       task.L, task.mass, bounds,
       task.outer,    {},         task.fillDensity,      task.solidMoments};
   const Vector middle = 0.5 * (bounds.lower + bounds.upper);
-  const Vector outerMiddle =
-      task.outer ? Vector(0.5 * (task.outer->lower + task.outer->upper)) : Vector();
-  Vector coefficients = coefficientsFor(model, middle, outerMiddle);
+  const Vector outerStart =
+      task.outer ? Vector(task.outer->lower + kOuterStart * (task.outer->upper - task.outer->lower))
+                 : Vector();
+  Vector coefficients = coefficientsFor(model, middle, outerStart);
 
   OptimizeOptions solver;
   CavityResult result;

@@ -13,7 +13,7 @@ using Moments = Eigen::Matrix<double, 10, 1>;
 using MomentRates = Eigen::Matrix<double, Eigen::Dynamic, 10, Eigen::RowMajor>;
 
 /// Positive volume for outward orientation. The surface must be closed; the origin should be near
-/// it, for the integrals cancel far away. [TononTet, docs/math.md "Moments"]
+/// it, for the integrals cancel far away. [Ton05, docs/math.md "Moments"]
 Moments moments(const Points& vertices, const Faces& faces);
 
 /// Exact derivative of `moments` when vertex i moves along row i of `directions` (n×3, any length).

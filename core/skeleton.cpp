@@ -23,8 +23,11 @@ namespace massprops {
 namespace {
 
 using Kernel = CGAL::Simple_cartesian<double>;
+/// Of this file alone: another instantiation of the skeletonisation, with CGAL's own allocator,
+/// would have the same name to the linker, which keeps one of them for both.
+struct FlowKernel : Kernel {};
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
-using Skeletonization = CGAL::Mean_curvature_flow_skeletonization<Mesh>;
+using Skeletonization = CGAL::Mean_curvature_flow_skeletonization<Mesh, FlowKernel>;
 
 Mesh cgalMesh(const Points& vertices, const Faces& faces) {
   Mesh mesh;
