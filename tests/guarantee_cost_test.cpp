@@ -29,8 +29,7 @@ double unguardedOptimum(const TriangleMesh& mesh, const Options& options) {
   const HarmonicBasis basis = harmonicBasis(L, mass, options.basisSize);
   const Points skeleton = meanCurvatureSkeleton(piece.vertices, piece.faces).points;
   constexpr double kDiffusionLength = 0.02;
-  OffsetField field =
-      offsetField(piece.vertices, piece.faces, skeleton, L, area, kDiffusionLength);
+  OffsetField field = offsetField(piece.vertices, piece.faces, skeleton, L, area, kDiffusionLength);
   // The full distance to the smoothed skeleton, whatever lies on the way.
   SparseMatrix system = kDiffusionLength * kDiffusionLength * L;
   system.diagonal() += area;
@@ -41,17 +40,17 @@ double unguardedOptimum(const TriangleMesh& mesh, const Options& options) {
   bounds.lower = bounds.lower.cwiseMin(bounds.upper);
 
   const Moments solid = moments(piece.vertices, piece.faces);
-  const OffsetModel model{piece.vertices, piece.faces, field.directions, basis, L,    mass, bounds,
-                          {},             piece.faces, 0.0,              solid};
+  const OffsetModel model{piece.vertices, piece.faces, field.directions, basis, L,    mass,
+                          bounds,         {},          piece.faces,      0.0,   solid};
   const std::unique_ptr<Goal> goal = options.goal == GoalKind::Stand
                                          ? makeStandGoal(piece.contact, options.weights, 1.0)
                                          : makeSpinGoal(solid, options.weights, 1.0);
   OptimizeOptions patient;
   patient.maxEvaluations = 400;
   patient.objectiveTolerance = 1e-8;
-  const OptimizeResult best = minimize(
-      [&](const Vector& x) { return evaluate(model, *goal, options.weights, x); },
-      coefficientsFor(model, 0.5 * (bounds.lower + bounds.upper), {}), patient);
+  const OptimizeResult best =
+      minimize([&](const Vector& x) { return evaluate(model, *goal, options.weights, x); },
+               coefficientsFor(model, 0.5 * (bounds.lower + bounds.upper), {}), patient);
   EXPECT_LE(best.violation, 1e-6);
   return best.objective;
 }
@@ -78,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(Samples, GuaranteeCost,
                                            Sample{"toy_dinosaur", GoalKind::Stand},
                                            Sample{"leaning_ring", GoalKind::Stand},
                                            Sample{"tilted_ellipsoid_top", GoalKind::Spin}),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& sample) { return std::string(sample.param.name); });
 
 } // namespace
 } // namespace massprops::testing
