@@ -17,6 +17,10 @@ void requireSensible(const Options& options, Eigen::Index vertexCount, double di
               std::to_string(vertexCount) +
               " vertices: lower basis_k below that, or refine the model with Remeshing > "
               "Subdivision Surfaces: Midpoint.");
+  // As many conditions as there are equalities in the goal.
+  require(options.goal != GoalKind::Spin || options.basisSize >= 4,
+          "basis_k is " + std::to_string(options.basisSize) +
+              ": to spin, a body has to meet four conditions at once; give at least 4.");
   for (const std::optional<double>& radius : {options.radiusX, options.radiusY}) {
     require(!radius || (finite(*radius) && *radius > 0.0),
             "radius_x and radius_y must be positive, or 0 to take them from the model.");

@@ -26,7 +26,7 @@ struct Weights {
 
 struct Options {
   GoalKind goal = GoalKind::Stand;
-  /// k, the number of harmonic basis functions; 1 ≤ k < number of vertices.
+  /// k, the number of harmonic basis functions; 1 ≤ k < number of vertices, for Spin k ≥ 4.
   int basisSize = 36;
   /// Half axes of the elliptic contact area along the two horizontal axes that follow the up axis
   /// cyclically (x, y for +Z); length. Empty: taken from the model's ground contacts.
