@@ -30,9 +30,9 @@ for name in "$@"; do
     tilted_ellipsoid_top) script=sample_meshes/spin.mlx ;;
     *) script=sample_meshes/$name.mlx ;;
   esac
-  rm -f "$inner" "$solid" "$report" "out/$name.png"
+  rm -f "$inner" "$solid" "$report" "$log" "out/$name.png"
 
-  scripts/meshlabserver.sh -i "$mesh" -o "$inner" -l x -s "$script" >"$log" 2>>"$log" || {
+  scripts/meshlabserver.sh -i "$mesh" -o "$inner" -l x -s "$script" >>"$log" 2>&1 || {
     cat "$log" >&2
     exit 1
   }
