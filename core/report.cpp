@@ -11,7 +11,7 @@ namespace {
 std::string number(double value) {
   // Not printf: a host may have set a locale with a decimal comma.
   std::array<char, 32> text{};
-  const auto* const end =
+  char* const end =
       std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 9)
           .ptr;
   return {text.data(), end};
