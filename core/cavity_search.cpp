@@ -93,9 +93,10 @@ void keepOrdered(OffsetBounds& bounds) {
   bounds.lower = bounds.lower.cwiseMin(bounds.upper);
 }
 
-} // namespace
-
-CavityResult searchCavity(const CavityTask& task, const std::function<void(double)>& progress) {
+/// `freedom`: how much of the range between least and greatest offset may be used, 0…1; at 0 there
+/// is nothing to optimise, and the cavity is as large as the wall allows.
+CavityResult searchWithin(const CavityTask& task, double freedom,
+                          const std::function<void(double)>& progress) {
   const Neighbours neighbours = vertexNeighbours(task.vertices.rows(), task.faces);
   OffsetBounds bounds = task.inner;
   std::vector<char> solid = tooThin(task.field, bounds);
@@ -118,18 +119,23 @@ CavityResult searchCavity(const CavityTask& task, const std::function<void(doubl
     addMarks(solid, tooThin(task.field, bounds));
     model.inner = bounds;
     keepOrdered(model.inner);
+    model.inner.upper = model.inner.lower + freedom * (model.inner.upper - model.inner.lower);
 
     const Stopwatch optimization;
     result.cavity = cavitySurface(offsetSurfaces(model, coefficients).inner, task.faces, solid);
     solid = result.cavity.solid;
     model.innerFaces = result.cavity.faces;
-    const OptimizeResult best =
-        minimize([&](const Vector& x) { return evaluate(model, task.goal, task.weights, x); },
-                 coefficients, solver);
-    solver.objectiveScale = best.objectiveScale;
-    coefficients = best.x;
-    result.evaluations += best.evaluations;
-    result.stopReason = best.stopReason;
+    if (freedom > 0.0) {
+      const OptimizeResult best =
+          minimize([&](const Vector& x) { return evaluate(model, task.goal, task.weights, x); },
+                   coefficients, solver);
+      solver.objectiveScale = best.objectiveScale;
+      coefficients = best.x;
+      result.evaluations += best.evaluations;
+      result.stopReason = best.stopReason;
+    } else {
+      result.stopReason = "least offsets";
+    }
     OffsetSurfaces surfaces = offsetSurfaces(model, coefficients);
     if (round < kTrims && fillNarrowParts(task, surfaces.inner, result.cavity, solid)) {
       result.secondsOptimization += optimization.seconds();
@@ -155,6 +161,28 @@ CavityResult searchCavity(const CavityTask& task, const std::function<void(doubl
   }
   result.stopReason = "no cavity passes inspection";
   return result;
+}
+
+} // namespace
+
+CavityResult searchCavity(const CavityTask& task, const std::function<void(double)>& progress) {
+  // In thin sheets whose triangles are large, what the optimisation bends may fold everywhere.
+  CavityResult all;
+  for (const double freedom : {1.0, 0.3, 0.0}) {
+    CavityResult result = searchWithin(task, freedom, progress);
+    const bool hopeless = result.rounds == 1;
+    result.rounds += all.rounds;
+    result.evaluations += all.evaluations;
+    result.secondsOptimization += all.secondsOptimization;
+    result.secondsInspection += all.secondsInspection;
+    all = std::move(result);
+    if (all.status == CavityStatus::Found || hopeless) break;
+  }
+  return all;
+}
+
+bool leavesRoom(const CavityTask& task) {
+  return searchWithin(task, 0.0, {}).status == CavityStatus::Found;
 }
 
 } // namespace massprops

@@ -32,16 +32,16 @@ std::unique_ptr<Goal> makeGoal(const Options& options, const Workpiece& piece,
   throw InvalidInput("This goal does not exist: choose one from the list.");
 }
 
-/// The greatest wall below the wanted one that leaves room for a cavity, within a sixteenth; 0 when
-/// none was found down to a thousandth. Near its limit the search finds a cavity at one wall and
-/// none at a slightly thinner one, so that a wall counts only when a thinner one works, too.
+/// The greatest wall below the wanted one that leaves room for a cavity, within an eighth of it; 0
+/// when none was found down to a thousandth. Near its limit the search finds a cavity at one wall
+/// and none at a slightly thinner one, so that a wall counts only when a thinner one works, too.
 double largestWall(CavityTask task, const std::function<OffsetBounds(double)>& boundsFor) {
-  const auto leavesRoom = [&](double wall) {
+  const auto hasRoom = [&](double wall) {
     task.wall = wall;
     task.inner = boundsFor(wall);
-    return searchCavity(task, {}).status == CavityStatus::Found;
+    return leavesRoom(task);
   };
-  const auto works = [&](double wall) { return leavesRoom(wall) && leavesRoom(0.99 * wall); };
+  const auto works = [&](double wall) { return hasRoom(wall) && hasRoom(0.99 * wall); };
   const OffsetBounds thinnest = boundsFor(0.0);
   double tooThick =
       std::min(task.wall, thinnest.upper.cwiseProduct(task.field.clearance).maxCoeff());
