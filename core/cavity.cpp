@@ -15,7 +15,8 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
-/// Fewer connected faces than this make no cavity worth printing.
+/// Fewer connected faces than this, left over from a larger component, make no cavity worth
+/// printing.
 constexpr std::size_t kLeastFaces = 24;
 
 std::size_t at(Eigen::Index i) {
@@ -58,32 +59,39 @@ bool markIrregular(const Faces& faces, std::vector<char>& solid) {
   return changed;
 }
 
-/// Marks the vertices of connected pieces that are too small.
+/// Marks the vertices of pieces that are too small; whole components are not, however coarse.
 void markSmallPieces(const Faces& faces, std::vector<char>& solid) {
   std::vector<int> piece(solid.size(), -1);
   const Neighbours neighbours = vertexNeighbours(static_cast<Eigen::Index>(solid.size()), faces);
   std::vector<std::size_t> faceCount;
+  std::vector<char> isTrimmed;
   for (std::size_t seed = 0; seed < solid.size(); ++seed) {
     if (solid[seed] != 0 || piece[seed] >= 0) continue;
+    char trimmed = 0;
     std::vector<std::size_t> stack{seed};
     piece[seed] = static_cast<int>(faceCount.size());
     while (!stack.empty()) {
       const std::size_t v = stack.back();
       stack.pop_back();
       for (const int w : neighbours[v]) {
-        if (solid[at(w)] == 0 && piece[at(w)] < 0) {
+        if (solid[at(w)] != 0) {
+          trimmed = 1;
+        } else if (piece[at(w)] < 0) {
           piece[at(w)] = static_cast<int>(faceCount.size());
           stack.push_back(at(w));
         }
       }
     }
     faceCount.push_back(0);
+    isTrimmed.push_back(trimmed);
   }
   for (Eigen::Index f = 0; f < faces.rows(); ++f) {
     if (!touches(faces, f, solid)) ++faceCount[at(piece[at(faces(f, 0))])];
   }
   for (std::size_t v = 0; v < solid.size(); ++v) {
-    if (solid[v] == 0 && faceCount[at(piece[v])] < kLeastFaces) solid[v] = 1;
+    if (solid[v] != 0) continue;
+    const std::size_t p = at(piece[v]);
+    if (isTrimmed[p] != 0 && faceCount[p] < kLeastFaces) solid[v] = 1;
   }
 }
 

@@ -168,8 +168,13 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
 CavityResult searchCavity(const CavityTask& task, const std::function<void(double)>& progress) {
   // In thin sheets whose triangles are large, what the optimisation bends may fold everywhere.
   CavityResult all;
+  double done = 0.0;
+  const auto tell = [&](double share) {
+    done = std::max(done, share);
+    if (progress) progress(done);
+  };
   for (const double freedom : {1.0, 0.3, 0.0}) {
-    CavityResult result = searchWithin(task, freedom, progress);
+    CavityResult result = searchWithin(task, freedom, tell);
     const bool hopeless = result.rounds == 1;
     result.rounds += all.rounds;
     result.evaluations += all.evaluations;

@@ -57,10 +57,11 @@ std::string message(const CavityTask& task, const CavityResult& cavity, const Bo
   std::string sentence =
       task.goal.isReached(after.mass) ? "The goal is reached" : "The goal is missed";
   if (cavity.status == CavityStatus::NoRoom) {
-    return sentence +
-           " by the solid model; nothing can be hollowed at this wall: lower "
-           "inner_lower_bound" +
-           (largestWall > 0.0 ? " to " + toString(largestWall) + " or less." : ".");
+    return sentence + " by the solid model; nothing can be hollowed at this wall: " +
+           (largestWall > 0.0
+                ? "lower inner_lower_bound to " + toString(largestWall) + " or less."
+                : "lower inner_lower_bound, and refine the model with Remeshing > Isotropic "
+                  "Explicit Remeshing, for no thinner wall was found to leave room either.");
   }
   if (cavity.status == CavityStatus::NoGain) {
     return sentence + " by the solid model, and no cavity with this wall was found to serve it "

@@ -3,6 +3,8 @@
 #include "property/mesher.h"
 #include "shapes.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -292,14 +294,14 @@ TriangleMesh coarse(Chance& chance) {
 
 /// A cup or a shell: thin all over, its inside is outside.
 TriangleMesh bowl(Chance& chance) {
-  const double wall = chance.between(0.04, 0.25);
+  const double wall = chance.between(0.16, 0.35);
   const double rim = chance.between(-0.4, 0.6);
   const double depth = chance.between(0.5, 1.0);
   const Implicit solid = [=](const Vec3& p) {
     const double shell = std::abs(Vec3(p.x(), p.y(), p.z() / depth).norm() - 1.0) - 0.5 * wall;
     return -smoothMinimum(-shell, rim - p.z(), 0.05);
   };
-  const double step = std::max(0.75 * wall, chance.between(0.12, 0.2));
+  const double step = 0.75 * wall;
   const Vec3 far(1.3, 1.3, 1.3);
   return implicitMesh(solid, -far, far, step, chance.oneIn(2) ? 0 : chance.integer(2, 6));
 }
@@ -383,6 +385,29 @@ TriangleMesh unwelded(const TriangleMesh& mesh) {
 TriangleMesh rounded(TriangleMesh mesh) {
   mesh.vertices = mesh.vertices.cast<float>().cast<double>();
   return mesh;
+}
+
+/// Whether the points on the ground spread in two directions.
+bool hasFoot(const TriangleMesh& mesh, const Vec3& up) {
+  const double diagonal = diagonalOf(mesh);
+  const Vector height = mesh.vertices * up;
+  Mat3 spread = Mat3::Zero();
+  Vec3 middle = Vec3::Zero();
+  double count = 0.0;
+  for (int round = 0; round < 2; ++round)
+    for (Eigen::Index v = 0; v < height.size(); ++v) {
+      if (height[v] > height.minCoeff() + 0.5e-4 * diagonal) continue;
+      const Vec3 p = mesh.vertices.row(v).transpose();
+      if (round == 0) {
+        middle = (count * middle + p) / (count + 1.0);
+        count += 1.0;
+      } else {
+        spread += (p - middle) * (p - middle).transpose();
+      }
+    }
+  // The second largest: the smallest is that along the up axis.
+  const Vector sizes = Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvalues();
+  return sizes[1] > std::pow(1e-3 * diagonal, 2);
 }
 
 std::string upName(UpAxis up) {
@@ -493,10 +518,7 @@ PropertyCase makeCase(std::uint32_t seed, int number) {
   if (chance.oneIn(3)) o.innerUpperBound = chance.between(0.3, 1.0);
   if (o.goal == GoalKind::Stand) {
     // Without a flat foot the radii are needed; with one they may be given.
-    const Vec3 down = -up;
-    const Vector height = -c.body.vertices * down;
-    const double ground = height.minCoeff() + 1e-4 * diagonal;
-    if ((height.array() <= ground).count() < 6 || chance.oneIn(4)) {
+    if (!hasFoot(c.body, up) || chance.oneIn(4)) {
       o.radiusX = diagonal * chance.between(0.03, 0.4);
       o.radiusY = diagonal * chance.between(0.03, 0.4);
     }

@@ -34,7 +34,7 @@ namespace {
 constexpr unsigned kSecondsAllowed = 60;
 
 struct Arguments {
-  int cases = 300;
+  int cases = 360;
   std::uint32_t seed = 1;
   int jobs = 1;
   int only = -1;
@@ -126,9 +126,15 @@ void runCase(const Arguments& arguments, int index, const Teller& tell) {
   // Written first, for a crash tells nothing; the parent removes it when all is well.
   writePly(file + ".ply", c.input);
   try {
-    const Result result = optimizeMassProperties(c.input, c.options);
+    int percent = 0;
+    bool inOrder = true;
+    const Result result = optimizeMassProperties(c.input, c.options, [&](int now, const char*) {
+      inOrder = inOrder && now >= percent && now <= 100;
+      percent = now;
+    });
     const std::string outcome = outcomeOf(result);
     tell("outcome", outcome);
+    if (!inOrder || percent != 100) tell("broken", "the progress does not go from 0 to 100");
     for (const auto& [key, value] : result.report.entries) {
       if (arguments.verbose) tell("note", key + " = " + toString(value));
       if (key == "skeleton_failures" && std::get<int>(value) > 0) tell("note", "skeleton failed");
