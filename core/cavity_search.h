@@ -55,9 +55,9 @@ struct CavityResult {
 /// The cavity that serves the goal best among those that pass inspection. Where a cavity crosses
 /// itself or comes too near to the outer surface the bounds close in, and what is left without room
 /// becomes solid; after a bounded number of rounds all that still fails becomes solid, so that
-/// what is returned is clean or empty. Where nothing is left, it starts again with offsets nearer to
-/// the least ones.
-/// `progress`: called with the share of the work that is done, 0…1; may be empty.
+/// what is returned is clean or empty. Where nothing is left, it starts again with offsets nearer
+/// to the least ones. `progress`: called with the share of the work that is done, 0…1; may be
+/// empty.
 CavityResult searchCavity(const CavityTask& task, const std::function<void(double)>& progress);
 
 /// Whether a cavity with the least offsets passes inspection, without optimising anything. Where
