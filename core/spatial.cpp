@@ -87,11 +87,12 @@ Vector SurfaceIndex::chords(const Points& points, const Points& directions) cons
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     const Kernel::Point_3 start = point(points, i);
     const Kernel::Vector_3 d(directions(i, 0), directions(i, 1), directions(i, 2));
-    const auto containsStart = [&](Triangles::const_iterator triangle) {
+    // CGAL cannot cut triangles without area.
+    const auto isSkipped = [&](Triangles::const_iterator triangle) {
       return triangle->vertex(0) == start || triangle->vertex(1) == start ||
-             triangle->vertex(2) == start;
+             triangle->vertex(2) == start || triangle->is_degenerate();
     };
-    const auto hit = tree_->tree.first_intersection(Kernel::Ray_3(start, d), containsStart);
+    const auto hit = tree_->tree.first_intersection(Kernel::Ray_3(start, d), isSkipped);
     result[i] = std::numeric_limits<double>::infinity();
     if (hit) {
       if (const auto* at = boost::get<Kernel::Point_3>(&hit->first)) {

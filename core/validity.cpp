@@ -79,6 +79,9 @@ std::vector<int> crossingFaces(const Points& inner, const Faces& innerFaces, con
   std::set<int> crossing(own.begin(), own.end());
   const std::vector<Kernel::Triangle_3> innerTriangles = triangles(inner, innerFaces);
   const std::vector<Kernel::Triangle_3> outerTriangles = triangles(outer, outerFaces);
+  for (std::size_t f = 0; f < innerTriangles.size(); ++f) {
+    if (innerTriangles[f].is_degenerate()) crossing.insert(static_cast<int>(f));
+  }
   std::vector<Box> innerBoxes = boxes(innerTriangles);
   std::vector<Box> outerBoxes = boxes(outerTriangles);
   CGAL::box_intersection_d(innerBoxes.begin(), innerBoxes.end(), outerBoxes.begin(),

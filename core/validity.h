@@ -12,7 +12,8 @@ namespace massprops {
 /// \pre every edge of the surface has one or two faces
 std::vector<int> selfIntersectingFaces(const Points& vertices, const Faces& faces);
 
-/// Faces of the inner surface that cross or touch the inner or the outer surface, ascending. Exact.
+/// Faces of the inner surface that cross or touch the inner or the outer surface, or have no area,
+/// ascending. Exact.
 /// The outer surface's crossings with itself are not told.
 std::vector<int> crossingFaces(const Points& inner, const Faces& innerFaces, const Points& outer,
                                const Faces& outerFaces);

@@ -103,6 +103,16 @@ long eulerCharacteristic(const TriangleMesh& mesh) {
          static_cast<long>(directedEdges(mesh).size()) / 2 + static_cast<long>(mesh.faces.rows());
 }
 
+std::size_t facesWithoutArea(const TriangleMesh& mesh) {
+  std::size_t count = 0;
+  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
+    if (CGAL::collinear(exact(mesh, mesh.faces(f, 0)), exact(mesh, mesh.faces(f, 1)),
+                        exact(mesh, mesh.faces(f, 2))))
+      ++count;
+  }
+  return count;
+}
+
 std::size_t intersectingPairs(const TriangleMesh& mesh) {
   std::size_t pairs = 0;
   std::vector<Box> all = boxes(mesh);

@@ -13,6 +13,9 @@ bool isClosedAndOriented(const TriangleMesh& mesh);
 /// Vertices − edges + faces: 2 for a sphere, 0 for a torus, added over components.
 long eulerCharacteristic(const TriangleMesh& mesh);
 
+/// Number of triangles whose corners lie on a line. Exact.
+std::size_t facesWithoutArea(const TriangleMesh& mesh);
+
 /// Number of pairs of triangles that meet elsewhere than in the corners and edges they share. Pair
 /// by pair with exact predicates.
 std::size_t intersectingPairs(const TriangleMesh& mesh);

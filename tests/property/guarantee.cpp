@@ -426,6 +426,8 @@ void checkSurface(const PropertyCase& c, const Result& result, const TriangleMes
     found.require(c.options.representable(inner.vertices) == inner.vertices,
                   "the cavity has coordinates that are no floats");
   }
+  const std::size_t flat = facesWithoutArea(inner);
+  found.require(flat == 0, flat, " faces of the cavity have no area");
   const std::size_t own = intersectingPairs(inner);
   found.require(own == 0, own, " pairs of faces of the cavity meet");
   const std::size_t across = intersectingPairs(inner, outer);

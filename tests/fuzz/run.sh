@@ -1,0 +1,14 @@
+#!/bin/sh
+# usage: run.sh <seconds>   fuzzes from the kept corpus, which stays as it is
+#
+# A finding is left in build/fuzz/findings; run fuzz_mesh with that file as its only argument to see
+# it again.
+set -eu
+cd "$(dirname "$0")/../.."
+work=build/fuzz/corpus
+rm -rf "$work"
+mkdir -p "$work" build/fuzz/findings
+# New inputs go into the first folder.
+exec build/fuzz/tests/fuzz/fuzz_mesh "$work" tests/fuzz/corpus \
+  -max_total_time="$1" -timeout=30 -rss_limit_mb=3000 -max_len=1024 -print_final_stats=1 \
+  -artifact_prefix=build/fuzz/findings/
