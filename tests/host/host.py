@@ -139,6 +139,33 @@ def bounds_a_volume(*files):
     return "" if done.returncode == 0 else done.stdout.decode().strip() or "the check crashed"
 
 
+def cube(n=4, size=10.0):
+    """A cube of n×n squares a side, each cut into two triangles."""
+    points, faces = [], []
+    ticks = range(n + 1)
+    index = {}
+
+    def at(p):
+        if p not in index:
+            index[p] = len(points)
+            points.append(np.array(p) * size / n)
+        return index[p]
+
+    for axis in range(3):
+        for side in (0, n):
+            def corner(i, j):
+                p = [0, 0, 0]
+                p[axis], p[(axis + 1) % 3], p[(axis + 2) % 3] = side, i, j
+                return at(tuple(p))
+            for i in ticks[:-1]:
+                for j in ticks[:-1]:
+                    a, b = corner(i, j), corner(i + 1, j)
+                    c, d = corner(i + 1, j + 1), corner(i, j + 1)
+                    pair = [(a, b, c), (a, c, d)]
+                    faces += pair if side else [f[::-1] for f in pair]
+    return np.array(points), np.array(faces)
+
+
 class HostTest(unittest.TestCase):
     """Gives each test its own empty folder `self.folder`."""
 
