@@ -21,6 +21,11 @@ double violationOf(const Evaluation& e) {
   return violation;
 }
 
+/// SLSQP may propose points that are no numbers.
+bool isFinite(const Evaluation& e) {
+  return std::isfinite(e.objective) && e.equalities.allFinite() && e.inequalities.allFinite();
+}
+
 double scaleFor(double gradientNorm, double wanted) {
   return gradientNorm > 0.0 && std::isfinite(gradientNorm) ? wanted / gradientNorm : 1.0;
 }
@@ -32,6 +37,7 @@ public:
       : problem_(problem), options_(options) {
     best_.objective = std::numeric_limits<double>::infinity();
     best_.violation = std::numeric_limits<double>::infinity();
+    best_.x = start;
     const Evaluation& e = at(start);
     objectiveScale_ =
         options.objectiveScale.value_or(scaleFor(e.objectiveGradient.norm(), kGradientNorm));
@@ -55,6 +61,7 @@ public:
       const Vector v = Eigen::Map<const Vector>(x.data(), static_cast<Eigen::Index>(x.size()));
       evaluation_ = problem_(v);
       ++best_.evaluations;
+      if (!v.allFinite() || !isFinite(evaluation_)) return evaluation_;
       const double violation = std::max(0.0, violationOf(evaluation_) - options_.feasibility);
       if (violation < best_.violation ||
           (violation == best_.violation && evaluation_.objective < best_.objective)) {

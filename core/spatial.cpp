@@ -20,9 +20,56 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Triangles = std::vector<Kernel::Triangle_3>;
 using Segments = std::vector<Kernel::Segment_3>;
 using TrianglePrimitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
-using TriangleTree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, TrianglePrimitive>>;
+using TriangleTraits = CGAL::AABB_traits<Kernel, TrianglePrimitive>;
 using SegmentPrimitive = CGAL::AABB_segment_primitive<Kernel, Segments::const_iterator>;
 using SegmentTree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, SegmentPrimitive>>;
+
+Vec3 vec(const Kernel::Point_3& p) {
+  return {p.x(), p.y(), p.z()};
+}
+
+Vec3 nearestOnSegment(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 edge = b - a;
+  const double square = edge.squaredNorm();
+  return square > 0.0 ? Vec3(a + std::clamp((p - a).dot(edge) / square, 0.0, 1.0) * edge) : a;
+}
+
+Vec3 nearestOnTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  Vec3 nearest = nearestOnSegment(p, a, b);
+  for (const Vec3& other : {nearestOnSegment(p, b, c), nearestOnSegment(p, c, a)}) {
+    if ((p - other).squaredNorm() < (p - nearest).squaredNorm()) nearest = other;
+  }
+  // The foot of the perpendicular by its barycentric coordinates, if it is inside.
+  const Vec3 normal = (b - a).cross(c - a);
+  const double ofA = (b - p).cross(c - p).dot(normal);
+  const double ofB = (c - p).cross(a - p).dot(normal);
+  const double ofC = (a - p).cross(b - p).dot(normal);
+  if (ofA > 0.0 && ofB > 0.0 && ofC > 0.0) {
+    const Vec3 foot = (ofA * a + ofB * b + ofC * c) / (ofA + ofB + ofC);
+    if ((p - foot).squaredNorm() < (p - nearest).squaredNorm()) nearest = foot;
+  }
+  return nearest;
+}
+
+/// CGAL projects onto the plane of a triangle; one (almost) without area has none, and comparing
+/// the NaN that comes out exactly ends the process.
+struct RobustTraits : TriangleTraits {
+  struct Closest_point {
+    Kernel::Point_3 operator()(const Kernel::Point_3& query, const TrianglePrimitive& primitive,
+                               const Kernel::Point_3& bound) const {
+      const Kernel::Triangle_3& t = primitive.datum();
+      const Vec3 p = vec(query);
+      const Vec3 nearest =
+          nearestOnTriangle(p, vec(t.vertex(0)), vec(t.vertex(1)), vec(t.vertex(2)));
+      return (p - nearest).squaredNorm() < (p - vec(bound)).squaredNorm()
+                 ? Kernel::Point_3(nearest.x(), nearest.y(), nearest.z())
+                 : bound;
+    }
+  };
+  Closest_point closest_point_object() const { return {}; }
+};
+
+using TriangleTree = CGAL::AABB_tree<RobustTraits>;
 
 Kernel::Point_3 point(const Points& points, Eigen::Index i) {
   return {points(i, 0), points(i, 1), points(i, 2)};

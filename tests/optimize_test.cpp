@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace massprops::testing {
 namespace {
@@ -106,6 +107,30 @@ TEST(Minimize, ReportsTheViolationOfAnInfeasibleProblemInsteadOfThrowing) {
   const OptimizeResult result = minimize(impossible, vector({0.3}));
   EXPECT_GE(result.violation, 0.49);
   EXPECT_FALSE(result.stopReason.empty());
+}
+
+TEST(Minimize, NeverReturnsAPointWithoutAValue) {
+  // A violated constraint at the start and no number where it would hold: the greatest of 0 and a
+  // violation that is no number came out as 0, better than any.
+  const auto cliff = [](const Vector& x) {
+    Evaluation e;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const bool beyond = !(x[0] < 0.5);
+    e.objective = beyond ? nan : -x[0];
+    e.objectiveGradient = vector({-1.0, 0.0});
+    e.inequalities = vector({beyond ? nan : 1.0 - x[0]});
+    e.inequalityJacobian.resize(1, 2);
+    e.inequalityJacobian << -1, 0;
+    return e;
+  };
+  for (const double start : {0.0, 2.0}) {
+    const OptimizeResult result = minimize(cliff, vector({start, 0.0}), patient());
+    EXPECT_TRUE(result.x.allFinite());
+    if (start < 0.5) {
+      EXPECT_TRUE(std::isfinite(result.objective));
+      EXPECT_LT(result.x[0], 0.5);
+    }
+  }
 }
 
 TEST(Minimize, KeepsToItsEvaluationLimit) {
