@@ -16,6 +16,7 @@
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -25,7 +26,26 @@ namespace {
 using Kernel = CGAL::Simple_cartesian<double>;
 /// Of this file alone: another instantiation of the skeletonisation, with CGAL's own allocator,
 /// would have the same name to the linker, which keeps one of them for both.
-struct FlowKernel : Kernel {};
+struct FlowKernel : Kernel {
+  /// The flow asks whether Voronoi poles are inside, by rays from them, and tries again for ever
+  /// when the pole of points that are all but in a plane is no number. Such a one is outside.
+  struct Construct_ray_3 {
+    Ray_3 operator()(const Point_3& from, const Vector_3& direction) const {
+      const bool isPoint =
+          std::isfinite(from.x()) && std::isfinite(from.y()) && std::isfinite(from.z());
+      if (raysLeft == 0)
+        throw std::runtime_error("the mean curvature flow does not come to an end");
+      --raysLeft;
+      return isPoint ? Ray_3(from, direction) : Ray_3(Point_3(kFar, kFar, kFar), direction);
+    }
+    Ray_3 operator()(const Point_3& from, const Point_3& to) const { return {from, to}; }
+  };
+  Construct_ray_3 construct_ray_3_object() const { return {}; }
+
+  static constexpr double kFar = 1e3;
+  static thread_local std::size_t raysLeft;
+};
+thread_local std::size_t FlowKernel::raysLeft = 0;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using Skeletonization = CGAL::Mean_curvature_flow_skeletonization<Mesh, FlowKernel>;
 
@@ -50,6 +70,8 @@ Mesh cgalMesh(const Points& vertices, const Faces& faces) {
 Points contractedPoints(const Points& vertices, const Faces& faces, std::size_t bytesPerVertex) {
   const ArenaScope arena(bytesPerVertex * static_cast<std::size_t>(vertices.rows()));
   CGAL::get_default_random() = CGAL::Random(0);
+  // One ray a vertex and step, of which there are up to 500, and as many again.
+  FlowKernel::raysLeft = 1000 * static_cast<std::size_t>(vertices.rows());
   const Mesh mesh = cgalMesh(vertices, faces);
   Skeletonization::Skeleton skeleton;
   {

@@ -42,6 +42,17 @@ TEST(SkeletonFailure, IsRepeatedBitForBit) {
   EXPECT_EQ(meanCurvatureSkeleton(mesh.vertices, mesh.faces, kHardlyAny).points, first);
 }
 
+TEST(SkeletonFailure, EndsOnASheetOfAlmostNoThickness) {
+  // Fuzzing found it: Voronoi poles of points that are all but in a plane are no numbers, and rays
+  // from them were shot for ever.
+  const TriangleMesh sheet =
+      transformed(torus(1.0, 0.4, 10, 6), Vec3(1e-9, 1, 1).asDiagonal() * Mat3::Identity());
+  Options options;
+  options.goal = GoalKind::Spin;
+  const Workpiece piece = makeWorkpiece(makeSolid(sheet), options);
+  EXPECT_TRUE(meanCurvatureSkeleton(piece.vertices, piece.faces).points.allFinite());
+}
+
 TEST(SkeletonFailure, StillGivesACavityThatKeepsTheWall) {
   Options options;
   options.goal = GoalKind::Spin;
