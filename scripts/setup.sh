@@ -3,9 +3,16 @@
 # missing, gets the headers of the installed MeshLab, configures and builds build/release. What is
 # done already is skipped.
 #
-# usage: scripts/setup.sh [target ...]   all targets when none is named
+# usage: scripts/setup.sh [--sanitized] [target ...]
+#   all targets when none is named; --sanitized: what the sanitized tests and the fuzzing need, too
 set -eu
 cd "$(dirname "$0")/.."
+
+sanitized=OFF
+if [ "${1:-}" = --sanitized ]; then
+  sanitized=ON
+  shift
+fi
 
 packages="
   meshlab dpkg-dev
@@ -16,6 +23,7 @@ packages="
   xvfb xauth libgl1-mesa-dri
   python3 python3-numpy python3-vtk9
 "
+[ "$sanitized" = OFF ] || packages="$packages clang-14 libclang-rt-14-dev"
 
 as_root() {
   if [ "$(id -u)" -eq 0 ]; then
@@ -42,7 +50,8 @@ fi
 
 scripts/fetch_meshlab_source.sh build/meshlab-source >/dev/null
 
-cmake --preset release -DMASSPROPS_WERROR=ON >build/configure.log 2>&1 || {
+cmake --preset release -DMASSPROPS_WERROR=ON -DMASSPROPS_TEST_SANITIZED="$sanitized" \
+  >build/configure.log 2>&1 || {
   cat build/configure.log >&2
   exit 1
 }
