@@ -146,6 +146,25 @@ void requireNoSelfIntersection(const TriangleMesh& mesh) {
   }
 }
 
+/// Removing flat faces may bring parts together that only lay on each other.
+RepairedMesh withoutFlatFaces(RepairedMesh mesh) {
+  const int before = mesh.repairs.zeroAreaFaces;
+  const Eigen::Index facesBefore = mesh.mesh.faces.rows();
+  mesh = withoutZeroAreaFaces(std::move(mesh));
+  const int removed = mesh.repairs.zeroAreaFaces - before;
+  if (removed == 0 && mesh.mesh.faces.rows() == facesBefore) return mesh;
+  try {
+    requireClosedManifoldEdges(mesh.mesh);
+    requireManifoldVertices(mesh.mesh);
+  } catch (const InvalidInput&) {
+    throw InvalidInput("The surface has " +
+                       count(static_cast<std::size_t>(removed), "face", "faces") +
+                       " without area that cannot be removed without making it non-manifold: use "
+                       "Cleaning and Repairing > Remove T-Vertices by Edge Flip, then run again.");
+  }
+  return mesh;
+}
+
 double volumeOf(const Points& vertices, const Faces& faces) {
   const Eigen::RowVector3d near = vertices.row(faces(0, 0));
   return moments(vertices.rowwise() - near, faces)[0];
@@ -177,7 +196,7 @@ Solid makeSolid(const TriangleMesh& input) {
   }
   requireClosedManifoldEdges(repaired.mesh);
   requireManifoldVertices(repaired.mesh);
-  repaired = withoutZeroAreaFaces(std::move(repaired));
+  repaired = withoutFlatFaces(std::move(repaired));
   const TriangleMesh& mesh = repaired.mesh;
   if (mesh.faces.rows() == 0) {
     throw InvalidInput("The surface encloses no volume: open a model that is a solid body.");
