@@ -14,6 +14,8 @@ constexpr double kLeastClearance = 0.05;
 /// Offsets need some room to be worth a cavity: a share of the greatest one.
 constexpr double kLeastRoom = 0.02;
 constexpr double kContactHeight = 1e-4;
+/// What a vertex keeps of its height above the ground, lest it widen the contact area.
+constexpr double kLeastHeight = 0.5;
 constexpr double kWallSlack = 1e-3;
 
 } // namespace
@@ -59,7 +61,7 @@ OffsetBounds outerBounds(const Points& vertices, const OffsetField& field, doubl
     if (height <= kContactHeight || field.clearance[v] <= kLeastClearance) {
       bounds.upper[v] = 0.0;
     } else if (descent > 0.0) {
-      bounds.upper[v] = std::min(upper, (height - kContactHeight) / descent);
+      bounds.upper[v] = std::min(upper, kLeastHeight * height / descent);
     }
   }
   bounds.lower = bounds.upper.cwiseMin(lower);

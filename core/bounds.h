@@ -27,8 +27,8 @@ OffsetBounds keepingWall(const Points& vertices, const Faces& faces, const Offse
 /// inwards: 1, else 0.
 std::vector<char> tooThin(const OffsetField& field, const OffsetBounds& bounds);
 
-/// Outer surface: displacements in [lower, upper] along d_i; no vertex goes below the ground z = 0
-/// and the ground contacts stay where they are.
+/// Outer surface: displacements in [lower, upper] along d_i; the ground contacts at z = 0 stay
+/// where they are, and no other vertex loses more than half of its height, so that none joins them.
 OffsetBounds outerBounds(const Points& vertices, const OffsetField& field, double lower,
                          double upper);
 
