@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace massprops {
 namespace {
@@ -16,19 +17,21 @@ constexpr double kStableRatio = 1.0;
 
 class SpinGoal final : public Goal {
 public:
-  SpinGoal(const Moments& solidMassMoments, const Weights& weights, double lengthUnit)
+  SpinGoal(const Moments& solidMassMoments, const Weights& weights, double lengthUnit, Vec3 pivot)
       : solidMass_(solidMassMoments[0]),
         solidInertia_(massProperties(solidMassMoments).inertiaTensor(2, 2)), weights_(weights),
-        lengthUnit_(lengthUnit) {}
+        lengthUnit_(lengthUnit), pivot_(std::move(pivot)) {}
 
   GoalValue objective(const Moments& massMoments) const override {
     const MassProperties body = massProperties(massMoments);
     const MassPropertyGradients gradients = massPropertyGradients(body);
     const Mat3& I = body.inertiaTensor;
     GoalValue f;
-    // (m/m_solid) c_z = S_z/m_solid
-    f.value = weights_.centerOfMass * massMoments[3] / solidMass_;
-    f.gradient[3] = weights_.centerOfMass / solidMass_;
+    // (m/m_solid) (c_z − p_z) = (S_z − m p_z)/m_solid
+    const double weight = weights_.centerOfMass / solidMass_;
+    f.value = weight * (massMoments[3] - massMoments[0] * pivot_.z());
+    f.gradient[0] = -weight * pivot_.z();
+    f.gradient[3] = weight;
     // The moments in the horizontal plane: I_a² + I_b² = I_xx² + I_yy² + 2 I_xy²
     const double plane = I(0, 0) * I(0, 0) + I(1, 1) * I(1, 1) + 2.0 * I(0, 1) * I(0, 1);
     const double axial = I(2, 2);
@@ -48,7 +51,7 @@ public:
     GoalConstraints h;
     h.values.resize(4);
     h.gradients.resize(4, 10);
-    h.values << body.centerOfMass.head<2>(), body.inertiaTensor(0, 2) / solidInertia_,
+    h.values << (body.centerOfMass - pivot_).head<2>(), body.inertiaTensor(0, 2) / solidInertia_,
         body.inertiaTensor(1, 2) / solidInertia_;
     h.gradients.topRows<2>() = gradients.centerOfMass.topRows<2>();
     h.gradients.row(2) = gradients.inertiaTensor.row(5) / solidInertia_;
@@ -59,7 +62,7 @@ public:
   GoalConstraints inequalities(const Moments& massMoments) const override {
     const MassProperties body = massProperties(massMoments);
     GoalConstraints g;
-    g.values = Vector::Constant(1, -body.centerOfMass.z());
+    g.values = Vector::Constant(1, pivot_.z() - body.centerOfMass.z());
     g.gradients = -massPropertyGradients(body).centerOfMass.row(2);
     return g;
   }
@@ -100,7 +103,7 @@ private:
     double ratioA, ratioB; ///< I_zz/I_a ≤ I_zz/I_b of the horizontal moments I_a ≥ I_b
   };
 
-  static Verdict verdict(const Moments& massMoments) {
+  Verdict verdict(const Moments& massMoments) const {
     const MassProperties body = massProperties(massMoments);
     const Eigen::SelfAdjointEigenSolver<Mat3> principal(body.inertiaTensor);
     double upright = 0.0;
@@ -110,21 +113,23 @@ private:
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> horizontal(
         body.inertiaTensor.topLeftCorner<2, 2>());
     const double axial = body.inertiaTensor(2, 2);
-    return {body.centerOfMass.head<2>().norm(), std::acos(std::min(1.0, upright)) * kDegrees,
-            axial / horizontal.eigenvalues()[1], axial / horizontal.eigenvalues()[0]};
+    return {(body.centerOfMass - pivot_).head<2>().norm(),
+            std::acos(std::min(1.0, upright)) * kDegrees, axial / horizontal.eigenvalues()[1],
+            axial / horizontal.eigenvalues()[0]};
   }
 
   double solidMass_;
   double solidInertia_;
   Weights weights_;
   double lengthUnit_;
+  Vec3 pivot_;
 };
 
 } // namespace
 
 std::unique_ptr<Goal> makeSpinGoal(const Moments& solidMassMoments, const Weights& weights,
-                                   double lengthUnit) {
-  return std::make_unique<SpinGoal>(solidMassMoments, weights, lengthUnit);
+                                   double lengthUnit, const Vec3& pivot) {
+  return std::make_unique<SpinGoal>(solidMassMoments, weights, lengthUnit, pivot);
 }
 
 } // namespace massprops

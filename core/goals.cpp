@@ -1,8 +1,60 @@
 #include "core/goals.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace massprops {
+namespace {
+
+Vec3 middleOfTop(const Points& vertices) {
+  // The top is the ground of the model turned upside down.
+  Points turned = vertices;
+  turned.rightCols<2>() *= -1.0;
+  const Vec3 ground = groundContact(turned, {}).centre;
+  return {ground.x(), -ground.y(), -ground.z()};
+}
+
+} // namespace
+
+std::unique_ptr<Goal> makeGoal(const Options& options, const Workpiece& piece,
+                               const Points& outer) {
+  const Weights& weights = options.weights;
+  const double unit = piece.frame.length;
+  const double filling = options.fillDensity / options.density;
+  const auto solid = [&] { return moments(piece.vertices, piece.faces); };
+  switch (options.goal) {
+  case GoalKind::Stand:
+    return makeStandGoal(piece.contact, weights, unit);
+  case GoalKind::Spin:
+    return makeSpinGoal(solid(), weights, unit, piece.pivot.value_or(Vec3::Zero()));
+  case GoalKind::YoYo: {
+    const Vec3 middle(0.0, 0.0, 0.5 * piece.vertices.col(2).maxCoeff());
+    return makeYoYoGoal(solid(), weights, unit, piece.pivot.value_or(middle));
+  }
+  case GoalKind::StandEmptyAndFilled:
+    return makeStandEmptyAndFilledGoal(piece.contact, moments(outer, piece.faces), filling, weights,
+                                       unit);
+  case GoalKind::RollUpright:
+    return makeRollUprightGoal(piece.contact, outer, weights, unit);
+  case GoalKind::Float:
+    return makeFloatGoal(outer, piece.faces, options.waterLevel,
+                         options.waterDensity / options.density, weights, unit);
+  case GoalKind::Hang:
+    return makeHangGoal(piece.pivot ? *piece.pivot : middleOfTop(piece.vertices), weights, unit);
+  case GoalKind::Mass: {
+    const double grams = options.density * std::pow(unit, 3) / 1000.0;
+    const std::optional<double> target =
+        options.targetMass > 0.0 ? std::optional(options.targetMass / grams) : std::nullopt;
+    return makeMassGoal(solid()[0], target, weights, grams);
+  }
+  }
+  throw InvalidInput("This goal does not exist: choose one from the list.");
+}
+
+double fillingSeenBy(const Options& options) {
+  return options.goal == GoalKind::StandEmptyAndFilled ? 0.0
+                                                       : options.fillDensity / options.density;
+}
 
 double largestViolation(const Goal& goal, const Moments& massMoments) {
   double largest = 0.0;

@@ -5,6 +5,7 @@
 #include "core/mass_properties.h"
 #include "core/options.h"
 #include "core/report.h"
+#include "core/workpiece.h"
 
 #include <memory>
 #include <string>
@@ -25,8 +26,10 @@ struct GoalConstraints {
   MomentGradients gradients;
 };
 
-/// Everything is dimensionless, in the working frame, of the body whose ten mass moments are given
-/// relative to the goal's reference point (the centre of the contact area).
+/// A goal sees a body through its ten mass moments M in the working frame, the material's density
+/// being 1: M = outer − (1 − f) inner with f the filling's density, so that any function of M is
+/// one of the cavity's moments with dM/d(inner) = f − 1. f is the `fillDensity` of the task, see
+/// `fillingSeenBy`. Everything is dimensionless; objective and constraints are smooth.
 class Goal {
 public:
   virtual ~Goal() = default;
@@ -36,7 +39,7 @@ public:
   virtual GoalConstraints equalities(const Moments& massMoments) const = 0;
   /// Each must be ≤ 0; scaled likewise.
   virtual GoalConstraints inequalities(const Moments& massMoments) const = 0;
-  /// Whether second moments matter; if not, their derivatives need not be computed.
+  /// Whether second moments matter; if not, their derivatives are 0 and need not be computed.
   virtual bool usesInertia() const = 0;
   /// Whether the body does what the goal asks for, constraint margins aside.
   virtual bool isReached(const Moments& massMoments) const = 0;
@@ -48,17 +51,63 @@ public:
                         Report& report) const = 0;
 };
 
+// One factory a goal. `lengthUnit`: model units per working unit, for the report. Formulas in
+// docs/math.md under the goal's name.
+
 /// Stands on its contact area: minimises c_x² + c_y² + c_z over the area's centre, the centre of
-/// mass kept above the area, shrunk by a tenth. `lengthUnit`: model units per working unit, for the
-/// report. [PWLSH13, Sec. 4; MAB15, Sec. 5]
+/// mass kept above the area, shrunk by a tenth. [PWLSH13, Sec. 4; MAB15, Sec. 5]
 std::unique_ptr<Goal> makeStandGoal(const ContactArea& area, const Weights& weights,
                                     double lengthUnit);
 
-/// Spins about the vertical through its contact point: minimises (m/m_solid) c_z +
-/// (I_a² + I_b²)/I_zz², centre of mass on the axis, the axis a principal one.
+/// Spins about the vertical through `pivot`: minimises (m/m_solid) c_z + (I_a² + I_b²)/I_zz², c_z
+/// measured from the pivot, the centre of mass on the axis, the axis a principal one.
 /// [BWBSH14, Sec. 4; MAB15, Sec. 5]
 std::unique_ptr<Goal> makeSpinGoal(const Moments& solidMassMoments, const Weights& weights,
+                                   double lengthUnit, const Vec3& pivot = Vec3::Zero());
+
+/// Spins about the vertical axle whose middle is `pivot`: minimises (I_a² + I_b²)/I_zz², the centre
+/// of mass at the pivot, the axle a principal axis. [BWBSH14, Sec. 4]
+std::unique_ptr<Goal> makeYoYoGoal(const Moments& solidMassMoments, const Weights& weights,
+                                   double lengthUnit, const Vec3& pivot);
+
+/// Stands with the cavity empty and with the cavity filled: the sum of Stand's objective over both,
+/// the constraints of both. A function of the moments of the *empty* body; the filled one has
+/// (1 − f) empty + f outer, with f the filling's density as a multiple of the material's.
+std::unique_ptr<Goal> makeStandEmptyAndFilledGoal(const ContactArea& area, const Moments& outer,
+                                                  double filling, const Weights& weights,
+                                                  double lengthUnit);
+
+/// Comes back upright from every position: Stand's objective and constraints; the verdict counts
+/// the stable resting poses of the convex hull of `outer` (n×3, working frame). An area that is a
+/// point counts as a small disc.
+std::unique_ptr<Goal> makeRollUprightGoal(const ContactArea& area, const Points& outer,
+                                          const Weights& weights, double lengthUnit);
+
+/// Floats upright at a waterline: minimises c_z; the body as heavy as the water it displaces
+/// there, its centre of mass above or below the centre of buoyancy and under the metacentre; the
+/// verdict finds the pose in which the body really floats. `waterLevel`: share of the height;
+/// `waterDensity`: as a multiple of the material's. [WW16; docs/math.md "Float"]
+std::unique_ptr<Goal> makeFloatGoal(const Points& outer, const Faces& faces, double waterLevel,
+                                    double waterDensity, const Weights& weights, double lengthUnit);
+
+/// Hangs upright from `suspension`: minimises c_z, the centre of mass plumb below the point.
+/// [PWLSH13, Sec. 4]
+std::unique_ptr<Goal> makeHangGoal(const Vec3& suspension, const Weights& weights,
                                    double lengthUnit);
+
+/// Weighs `target` (working units, material of density 1): minimises ((m − target)/m_solid)² under
+/// m = target; without a target as light as possible. `grams`: grams per working unit of mass.
+std::unique_ptr<Goal> makeMassGoal(double solidMass, const std::optional<double>& target,
+                                   const Weights& weights, double grams);
+
+/// The goal that the user asks for, of a body with the outer surface `outer` (n×3, working frame;
+/// the workpiece's own vertices unless they have moved).
+/// \throw InvalidInput when there is no such goal
+std::unique_ptr<Goal> makeGoal(const Options& options, const Workpiece& piece, const Points& outer);
+
+/// Density of what the goal takes for the cavity's filling, as a multiple of the material's: 0 for
+/// Stand empty and filled, which adds the filling by itself.
+double fillingSeenBy(const Options& options);
 
 /// Largest |equality| or positive inequality.
 double largestViolation(const Goal& goal, const Moments& massMoments);

@@ -52,10 +52,10 @@ MassProperties inModel(const Moments& massMoments, const Frame& frame, double de
   return body;
 }
 
-std::string message(const CavityTask& task, const CavityResult& cavity, const Body& before,
-                    const Body& after, double largestWall) {
+std::string message(const CavityTask& task, const Goal& goalAfter, const CavityResult& cavity,
+                    const Body& before, const Body& after, double largestWall) {
   std::string sentence =
-      task.goal.isReached(after.mass) ? "The goal is reached" : "The goal is missed";
+      goalAfter.isReached(after.mass) ? "The goal is reached" : "The goal is missed";
   if (cavity.status == CavityStatus::NoRoom) {
     return sentence + " by the solid model; nothing can be hollowed at this wall: " +
            (largestWall > 0.0
@@ -70,7 +70,7 @@ std::string message(const CavityTask& task, const CavityResult& cavity, const Bo
   if (task.goal.isReached(before.mass)) sentence += " (by the solid model too)";
   return after.violation <= kFeasibility ? sentence + "; all constraints hold."
                                          : sentence + ": with the best cavity found " +
-                                               task.goal.worstViolation(after.mass) + ".";
+                                               goalAfter.worstViolation(after.mass) + ".";
 }
 
 } // namespace
@@ -85,20 +85,20 @@ bool isBetterThanSolid(const CavityTask& task, const CavityResult& cavity) {
   return hollow.objective < solid.objective;
 }
 
-Report hollowingReport(const Workpiece& piece, const CavityTask& task, const CavityResult& cavity,
-                       GoalKind kind, double density, const Stages& stages) {
+Report hollowingReport(const Workpiece& piece, const CavityTask& task, const Goal& goalAfter,
+                       const CavityResult& cavity, const Options& options, const Stages& stages) {
   const Body before = inputBody(task);
   const bool hollow = cavity.status == CavityStatus::Found;
   const Body after = hollow ? hollowBody(task, cavity) : before;
-  const MassProperties modelBefore = inModel(before.mass, piece.frame, density);
-  const MassProperties modelAfter = inModel(after.mass, piece.frame, density);
+  const MassProperties modelBefore = inModel(before.mass, piece.frame, options.density);
+  const MassProperties modelAfter = inModel(after.mass, piece.frame, options.density);
   const double unitVolume = std::pow(piece.frame.length, 3);
 
   Report report;
-  report.add("goal", std::string(kind == GoalKind::Stand ? "Stand" : "Spin"));
-  report.add("solved", after.violation <= kFeasibility && task.goal.isReached(after.mass));
-  report.add("message",
-             message(task, cavity, before, after, stages.largestWall * piece.frame.length));
+  report.add("goal", goalNames()[static_cast<std::size_t>(options.goal)]);
+  report.add("solved", after.violation <= kFeasibility && goalAfter.isReached(after.mass));
+  report.add("message", message(task, goalAfter, cavity, before, after,
+                                stages.largestWall * piece.frame.length));
   report.add("objective_before", before.objective);
   report.add("objective_after", after.objective);
   report.add("max_constraint_violation", after.violation);
@@ -111,7 +111,7 @@ Report hollowingReport(const Workpiece& piece, const CavityTask& task, const Cav
   report.add("inertia_tensor_before", modelBefore.inertiaTensor);
   report.add("inertia_tensor_after", modelAfter.inertiaTensor);
   task.goal.describe(before.mass, "before", report);
-  task.goal.describe(after.mass, "after", report);
+  goalAfter.describe(after.mass, "after", report);
   report.add("min_wall", hollow ? cavity.inspection.leastWall * piece.frame.length : 0.0);
   report.add("cavity_components", hollow ? cavity.inspection.components : 0);
   if (cavity.status == CavityStatus::NoRoom) {

@@ -22,9 +22,9 @@ struct Stages {
 /// constraints less or, where both keep them, has the lower objective.
 bool isBetterThanSolid(const CavityTask& task, const CavityResult& cavity);
 
-/// All keys of docs/report.md but `seconds_total`. `density` in g/cm³. An empty cavity stands for
-/// the solid body.
-Report hollowingReport(const Workpiece& piece, const CavityTask& task, const CavityResult& cavity,
-                       GoalKind kind, double density, const Stages& stages);
+/// All keys of docs/report.md but `seconds_total`. `goalAfter`: the task's goal for the outer
+/// surface of the result. An empty cavity stands for the solid body.
+Report hollowingReport(const Workpiece& piece, const CavityTask& task, const Goal& goalAfter,
+                       const CavityResult& cavity, const Options& options, const Stages& stages);
 
 } // namespace massprops

@@ -4,6 +4,31 @@
 #include <string>
 
 namespace massprops {
+namespace {
+
+/// As many coefficients are needed as there are equalities in the goal.
+int equalityCount(GoalKind goal) {
+  switch (goal) {
+  case GoalKind::Spin:
+    return 4;
+  case GoalKind::YoYo:
+    return 5;
+  case GoalKind::Float:
+    return 3;
+  case GoalKind::Hang:
+    return 2;
+  default:
+    return 1;
+  }
+}
+
+} // namespace
+
+const std::vector<std::string>& goalNames() {
+  static const std::vector<std::string> names = {
+      "Stand", "Spin", "Yo-yo", "Stand empty and filled", "Roll upright", "Float", "Hang", "Mass"};
+  return names;
+}
 
 void requireSensible(const Options& options, Eigen::Index vertexCount, double diagonal) {
   const auto require = [](bool holds, const std::string& sentence) {
@@ -17,10 +42,11 @@ void requireSensible(const Options& options, Eigen::Index vertexCount, double di
               std::to_string(vertexCount) +
               " vertices: lower basis_k below that, or refine the model with Remeshing > "
               "Subdivision Surfaces: Midpoint.");
-  // As many conditions as there are equalities in the goal.
-  require(options.goal != GoalKind::Spin || options.basisSize >= 4,
-          "basis_k is " + std::to_string(options.basisSize) +
-              ": to spin, a body has to meet four conditions at once; give at least 4.");
+  const int equalities = equalityCount(options.goal);
+  require(options.basisSize >= equalities,
+          "basis_k is " + std::to_string(options.basisSize) + ": the goal " +
+              goalNames()[static_cast<std::size_t>(options.goal)] + " has to meet " +
+              std::to_string(equalities) + " conditions at once; give at least as many functions.");
   for (const std::optional<double>& radius : {options.radiusX, options.radiusY}) {
     require(!radius || (finite(*radius) && *radius > 0.0),
             "radius_x and radius_y must be positive, or 0 to take them from the model.");
@@ -54,6 +80,23 @@ void requireSensible(const Options& options, Eigen::Index vertexCount, double di
           "density must be greater than 0 g/cm³; PLA has 1.24.");
   require(finite(options.fillDensity) && options.fillDensity >= 0.0,
           "fill_density must be 0 (an empty cavity) or positive.");
+  require(options.goal != GoalKind::StandEmptyAndFilled || options.fillDensity > 0.0,
+          "The goal Stand empty and filled needs fill_density, the density of what will be in the "
+          "cavity: 1 for water.");
+  const bool outerMatters =
+      options.goal == GoalKind::StandEmptyAndFilled || options.goal == GoalKind::Float;
+  require(!outerMatters || options.outerUpperBound == 0.0,
+          "The goals Float and Stand empty and filled work with the outer surface as it is: set "
+          "outer_lower_bound and outer_upper_bound to 0.");
+  require(!options.pivot || options.pivot->allFinite(),
+          "pivot_x, pivot_y and pivot_z must be coordinates of a point.");
+  require(options.waterLevel > 0.0 && options.waterLevel <= 1.0,
+          "water_level is a share of the model's height: give a value above 0 and at most 1 (under "
+          "water).");
+  require(finite(options.waterDensity) && options.waterDensity > 0.0,
+          "water_density must be greater than 0 g/cm³; fresh water has 1.");
+  require(finite(options.targetMass) && options.targetMass >= 0.0,
+          "target_mass must be 0 (as light as possible) or a mass in grams.");
 }
 
 } // namespace massprops

@@ -5,10 +5,25 @@
 
 #include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace massprops {
 
-enum class GoalKind { Stand, Spin };
+/// In the order of the dialog.
+enum class GoalKind {
+  Stand,
+  Spin,
+  YoYo,
+  StandEmptyAndFilled,
+  RollUpright,
+  Float,
+  Hang,
+  Mass,
+};
+
+/// In the order of `GoalKind`, as the dialog shows them.
+const std::vector<std::string>& goalNames();
 
 /// In the order of the dialog.
 enum class UpAxis { PlusZ, PlusY, PlusX, MinusZ, MinusY, MinusX };
@@ -17,7 +32,7 @@ enum class UpAxis { PlusZ, PlusY, PlusX, MinusZ, MinusY, MinusX };
 /// the goal's published objective.
 struct Weights {
   double volume = 0.0;       ///< opt_weight_1: material volume / volume of the solid
-  double centerOfMass = 1.0; ///< opt_weight_2: the goal's terms in the centre of mass
+  double centerOfMass = 1.0; ///< opt_weight_2: the goal's terms in mass and centre of mass
   double inertia = 1.0;      ///< opt_weight_3: the goal's terms in the moments of inertia
   double smoothness = 0.0;   ///< opt_weight_4: Dirichlet energy of the offsets
   double constraints = 1.0;  ///< opt_weight_5: squared violation; 0 leaves the constraints out
@@ -26,7 +41,8 @@ struct Weights {
 
 struct Options {
   GoalKind goal = GoalKind::Stand;
-  /// k, the number of harmonic basis functions; 1 ≤ k < number of vertices, for Spin k ≥ 4.
+  /// k, the number of harmonic basis functions; less than the number of vertices and at least the
+  /// number of the goal's equalities: Spin 4, Yo-yo 5, Float 3, Hang 2, Mass 1.
   int basisSize = 36;
   /// Half axes of the elliptic contact area along the two horizontal axes that follow the up axis
   /// cyclically (x, y for +Z); length. Empty: taken from the model's ground contacts.
@@ -42,6 +58,15 @@ struct Options {
   UpAxis upAxis = UpAxis::PlusZ;
   double density = 1.24;    ///< of the material, g/cm³; the default is PLA
   double fillDensity = 0.0; ///< of what fills the cavity, g/cm³
+  /// Spin: a point of the axis; Yo-yo: the middle of the axle; Hang: the point it hangs from. In
+  /// model coordinates. Empty: Spin takes the centre of the ground contact, Yo-yo the point above
+  /// it at half the height, Hang the middle of the topmost vertices.
+  std::optional<Vec3> pivot;
+  /// Float: how deep it shall lie in the water, as a share of its height; 1 is neutral, under
+  /// water.
+  double waterLevel = 0.5;
+  double waterDensity = 1.0; ///< Float: g/cm³
+  double targetMass = 0.0;   ///< Mass: g; 0 is as light as possible
   /// Rounds points to what the caller can store (a float mesh, say). What is delivered, checked
   /// and reported is the rounded surface. Empty: double precision.
   std::function<Points(const Points&)> representable;

@@ -21,15 +21,13 @@ namespace {
 /// Of the diagonal: smooths the noise of the skeleton's correspondence and keeps its shape.
 constexpr double kDiffusionLength = 0.02;
 
-std::unique_ptr<Goal> makeGoal(const Options& options, const Workpiece& piece,
-                               const Moments& solidMoments) {
-  switch (options.goal) {
-  case GoalKind::Stand:
-    return makeStandGoal(piece.contact, options.weights, piece.frame.length);
-  case GoalKind::Spin:
-    return makeSpinGoal(solidMoments, options.weights, piece.frame.length);
+/// The outer surface keeps the point that the body hangs from.
+void holdTop(const Points& vertices, OffsetBounds& bounds) {
+  constexpr double kTop = 1e-4; // as at the ground contacts
+  const double top = vertices.col(2).maxCoeff();
+  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
+    if (vertices(v, 2) >= top - kTop) bounds.lower[v] = bounds.upper[v] = 0.0;
   }
-  throw InvalidInput("This goal does not exist: choose one from the list.");
 }
 
 /// The greatest wall below the wanted one that leaves room for a cavity, within an eighth of it; 0
@@ -98,13 +96,13 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
 
   tell(70, "Optimization");
   const Moments solidMoments = moments(piece.vertices, piece.faces);
-  const std::unique_ptr<Goal> goal = makeGoal(options, piece, solidMoments);
+  const std::unique_ptr<Goal> goal = makeGoal(options, piece, piece.vertices);
   const auto representable = [&](const Points& points) {
     return options.representable ? options.representable(points) : points;
   };
   CavityTask task{piece.vertices, piece.faces, field, basis, L, mass, *goal, options.weights};
   task.solidMoments = solidMoments;
-  task.fillDensity = options.fillDensity / options.density;
+  task.fillDensity = fillingSeenBy(options);
   task.wall = piece.wall;
   task.inputMoments = solidMoments + moments(piece.cavities.vertices, piece.cavities.faces);
   const auto boundsFor = [&](double wall) {
@@ -115,6 +113,7 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   if (options.outerUpperBound > 0.0) {
     task.outer = outerBounds(piece.vertices, field, options.outerLowerBound / piece.frame.length,
                              options.outerUpperBound / piece.frame.length);
+    if (options.goal == GoalKind::Hang && !piece.pivot) holdTop(piece.vertices, *task.outer);
   }
   task.deliverable = [&](const Points& working) {
     return toWorking(piece.frame, representable(toModel(piece.frame, working)));
@@ -137,7 +136,10 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
       result.outer = TriangleMesh{representable(toModel(piece.frame, cavity.outer)), piece.faces};
     }
   }
-  result.report = hollowingReport(piece, task, cavity, options.goal, options.density, stages);
+  // A verdict may depend on the outer surface as it has become.
+  const std::unique_ptr<Goal> reached =
+      cavity.status == CavityStatus::Found ? makeGoal(options, piece, cavity.outer) : nullptr;
+  result.report = hollowingReport(piece, task, reached ? *reached : *goal, cavity, options, stages);
   result.report.add("seconds_total", total.seconds());
   tell(100, "Done");
   return result;

@@ -16,9 +16,11 @@ struct Workpiece {
   TriangleMesh cavities;
   ContactArea contact; ///< working lengths
   double wall = 0.0;   ///< working length
+  /// That the user gave, working frame.
+  std::optional<Vec3> pivot;
 };
 
-/// \throw InvalidInput when the model has nothing to stand on
+/// \throw InvalidInput when a goal that needs a contact area has none, or the pivot lies far away
 Workpiece makeWorkpiece(const Solid& solid, const Options& options);
 
 } // namespace massprops

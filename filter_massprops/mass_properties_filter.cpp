@@ -16,7 +16,8 @@ constexpr FilterId kFilter = 0;
 const char* const kName = "Mass Property Optimization";
 
 const char* const kInfo =
-    "Hollows a closed model so that its print stands or spins: finds the cavity that brings centre "
+    "Hollows a closed model so that its print stands, spins, floats, hangs or rolls upright: finds "
+    "the cavity that brings centre "
     "of mass and moments of inertia to where the <b>goal</b> needs them, without touching the "
     "outer "
     "surface. Wall thickness, material and filling are given; the cavity is a new layer whose "

@@ -7,8 +7,10 @@
 namespace massprops {
 namespace {
 
-QStringList goalNames() {
-  return {"Stand", "Spin"};
+QStringList goalEntries() {
+  QStringList entries;
+  for (const std::string& name : goalNames()) entries.append(QString::fromStdString(name));
+  return entries;
 }
 
 QStringList axisNames() {
@@ -61,10 +63,15 @@ RichParameterList dialogParameters(double diagonal) {
   const Options defaults;
   const auto range = static_cast<float>(diagonal);
   RichParameterList list;
-  list.addParam(RichEnum("goal", static_cast<int>(defaults.goal), goalNames(), "Goal",
+  list.addParam(RichEnum("goal", static_cast<int>(defaults.goal), goalEntries(), "Goal",
                          "What the model shall do once it is printed. Stand: it stands on its "
                          "ground contacts, as hard to tip over as possible. Spin: it spins as a "
-                         "top about the vertical axis through its lowest point."));
+                         "top about the vertical axis through its lowest point. Yo-yo: it spins "
+                         "about its vertical axle, balanced on both sides. Stand empty and filled: "
+                         "it stands with its cavity empty and with it filled. Roll upright: it "
+                         "comes back upright from every position, like a tumbler. Float: it floats "
+                         "upright at the given waterline. Hang: it hangs upright from its topmost "
+                         "point or a given one. Mass: it weighs as much as is asked for."));
   list.addParam(RichInt("basis_k", defaults.basisSize, "Basis functions",
                         "Number of harmonic functions that describe the cavity, at least 1 and "
                         "less than the number of vertices. More of them shape the cavity in finer "
@@ -99,10 +106,11 @@ RichParameterList dialogParameters(double diagonal) {
   const Weights& weights = defaults.weights;
   addWeight(list, "opt_weight_1", weights.volume, "Weight 1: volume",
             "Weight of the material's volume relative to the solid's.");
-  addWeight(list, "opt_weight_2", weights.centerOfMass, "Weight 2: centre of mass",
-            "Weight of the goal's terms in the centre of mass: low, and over the contact area.");
+  addWeight(
+      list, "opt_weight_2", weights.centerOfMass, "Weight 2: centre of mass",
+      "Weight of the goal's terms in mass and centre of mass: low, and over the contact area.");
   addWeight(list, "opt_weight_3", weights.inertia, "Weight 3: moments of inertia",
-            "Weight of the goal's terms in the moments of inertia.");
+            "Weight of the goal's terms in the moments of inertia (Spin, Yo-yo).");
   addWeight(list, "opt_weight_4", weights.smoothness, "Weight 4: smoothness",
             "Weight of the smoothness of the offsets over the surface.");
   addWeight(list, "opt_weight_5", weights.constraints, "Weight 5: constraints",
@@ -118,13 +126,37 @@ RichParameterList dialogParameters(double diagonal) {
   list.addParam(RichFloat("fill_density", static_cast<float>(defaults.fillDensity),
                           "Density of the filling",
                           "Density of what fills the cavity in g/cm\u00b3, model units read as mm. "
-                          "0 is air, 1 is water."));
+                          "0 is air, 1 is water. Stand empty and filled needs it."));
+  list.addParam(RichBool("use_pivot", false, "Use the pivot",
+                         "Whether pivot_x, pivot_y and pivot_z are given. Otherwise Spin takes the "
+                         "centre of the ground contact, Yo-yo the point above it at half the "
+                         "height, and Hang the topmost point. For Spin, Yo-yo and Hang; other "
+                         "goals ignore it."));
+  const auto addCoordinate = [&](const char* name, const char* label) {
+    list.addParam(RichFloat(name, 0.0F, label,
+                            "Coordinate in the scene of the point the model turns about. Spin: any "
+                            "point of the axis. Yo-yo: the middle of the axle. Hang: the point it "
+                            "hangs from. Counts for these goals only, and only with use_pivot."));
+  };
+  addCoordinate("pivot_x", "Pivot x");
+  addCoordinate("pivot_y", "Pivot y");
+  addCoordinate("pivot_z", "Pivot z");
+  list.addParam(RichFloat("water_level", static_cast<float>(defaults.waterLevel), "Waterline",
+                          "How deep the model shall lie in the water, as a share of its height: "
+                          "above 0, and 1 is neutral under water. For Float only."));
+  list.addParam(
+      RichFloat("water_density", static_cast<float>(defaults.waterDensity), "Density of the water",
+                "Density of the liquid the model floats in, g/cm\u00b3: 1 is fresh water, "
+                "1.025 the sea. For Float only."));
+  list.addParam(RichFloat("target_mass", static_cast<float>(defaults.targetMass), "Target mass",
+                          "Mass that the model shall have, filling included, in grams when model "
+                          "units are mm. 0: as light as possible. For Mass only."));
   return list;
 }
 
 Options optionsFrom(const RichParameterList& parameters) {
   Options options;
-  options.goal = static_cast<GoalKind>(entry(parameters, "goal", goalNames()));
+  options.goal = static_cast<GoalKind>(entry(parameters, "goal", goalEntries()));
   options.basisSize = parameters.getInt("basis_k");
   options.radiusX = unlessZero(number(parameters, "radius_x"));
   options.radiusY = unlessZero(number(parameters, "radius_y"));
@@ -141,6 +173,13 @@ Options optionsFrom(const RichParameterList& parameters) {
   options.upAxis = static_cast<UpAxis>(entry(parameters, "up_axis", axisNames()));
   options.density = number(parameters, "density");
   options.fillDensity = number(parameters, "fill_density");
+  if (parameters.getBool("use_pivot")) {
+    options.pivot = Vec3(number(parameters, "pivot_x"), number(parameters, "pivot_y"),
+                         number(parameters, "pivot_z"));
+  }
+  options.waterLevel = number(parameters, "water_level");
+  options.waterDensity = number(parameters, "water_density");
+  options.targetMass = number(parameters, "target_mass");
   return options;
 }
 

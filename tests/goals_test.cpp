@@ -61,8 +61,8 @@ Matrix allGradients(const Goal& goal, const Moments& m) {
   const MomentGradients g = goal.inequalities(m).gradients;
   Matrix all(1 + e.rows() + g.rows(), 10);
   all.row(0) = goal.objective(m).gradient;
-  all.middleRows(1, e.rows()) = e;
-  all.bottomRows(g.rows()) = g;
+  if (e.rows() > 0) all.middleRows(1, e.rows()) = e;
+  if (g.rows() > 0) all.bottomRows(g.rows()) = g;
   return all;
 }
 
@@ -277,6 +277,184 @@ TEST(SpinGoal, IsReachedAboutTheLargestAndTheSmallestMomentButNotTheMiddleOne) {
 TEST(SpinGoal, IsNotReachedOffTheAxis) {
   const Moments m = translated(standingBox({1.0, 0.8, 0.3}), {0.01, 0, 0});
   EXPECT_FALSE(spinGoal(m)->isReached(m));
+}
+
+TEST(SpinGoal, TurnsAboutThePivot) {
+  const Moments m = standingBox({1.0, 0.8, 0.3});
+  const Vec3 pivot(0.2, -0.1, 0.05);
+  const auto goal = makeSpinGoal(m, kPublished, 1.0, pivot);
+  EXPECT_NEAR(goal->objective(m).value, spinGoal(m)->objective(m).value - 0.05, 1e-12);
+  EXPECT_LT(largestViolation(*goal, translated(m, {0.2, -0.1, 0})), 1e-12);
+  EXPECT_FALSE(goal->isReached(m));
+  EXPECT_TRUE(goal->isReached(translated(m, {0.2, -0.1, 0})));
+  expectGradientsMatch(*goal, 20 * m);
+}
+
+TEST(YoYoGoal, HasTheGradientsOfItsValues) {
+  const Moments solid = momentsOf(transformed(blob(5), someRotation(), {0.2, -0.1, 0.7}));
+  expectGradientsMatch(*makeYoYoGoal(solid, kPublished, 1.0, {0.1, 0.2, 0.5}), solid);
+}
+
+TEST(YoYoGoal, IsReachedWithTheCentreInTheMiddleOfTheAxleOnly) {
+  const Moments m = standingBox({1.0, 0.9, 0.4}); // its middle at 0.3
+  const auto goal = makeYoYoGoal(m, kPublished, 100.0, {0, 0, 0.3});
+  EXPECT_TRUE(goal->isReached(m));
+  EXPECT_LT(largestViolation(*goal, m), 1e-12);
+  const Moments high = translated(m, {0, 0, 0.02});
+  EXPECT_FALSE(goal->isReached(high));
+  EXPECT_NEAR(largestViolation(*goal, high), 0.02, 1e-12);
+  EXPECT_NEAR(number(described(*goal, high), "middle_offset_after"), 2.0, 1e-9);
+  EXPECT_TRUE(truth(described(*goal, high), "spins_after"));
+  EXPECT_NEAR(goal->objective(high).value, goal->objective(m).value, 1e-12); // no height in it
+}
+
+TEST(StandEmptyAndFilledGoal, HasTheGradientsOfItsValues) {
+  const Moments outer = momentsOf(transformed(blob(5), someRotation(), {0.2, -0.1, 0.9}));
+  const Moments cavity = momentsOf(transformed(blob(4), 0.6 * Mat3::Identity(), {0.3, 0, 0.8}));
+  for (const double filling : {0.5, 1.0, 3.0}) { // lighter and heavier than the material
+    expectGradientsMatch(*makeStandEmptyAndFilledGoal(square(0.3), outer, filling, kPublished, 1.0),
+                         outer - cavity);
+  }
+}
+
+TEST(StandEmptyAndFilledGoal, IsTheSumOfStandOverBothBodies) {
+  const Moments outer = momentsOf(transformed(box({1, 1, 2}, 1), Mat3::Identity(), {0, 0, 1}));
+  const Moments cavity =
+      momentsOf(transformed(box({0.5, 0.6, 0.7}, 1), Mat3::Identity(), {0.2, 0, 1.5}));
+  const auto stand = makeStandGoal(square(1.0), kPublished, 1.0);
+  const double filling = 0.7;
+  const auto goal = makeStandEmptyAndFilledGoal(square(1.0), outer, filling, kPublished, 1.0);
+  const Moments empty = outer - cavity;
+  const Moments full = outer - cavity + filling * cavity;
+  EXPECT_NEAR(goal->objective(empty).value,
+              stand->objective(empty).value + stand->objective(full).value, 1e-12);
+  const Report report = described(*goal, empty);
+  EXPECT_NEAR(number(report, "tip_angle_filled_after"),
+              number(described(*stand, full), "tip_angle_after"), 1e-9);
+  EXPECT_NEAR(number(report, "tip_angle_empty_after"),
+              number(described(*stand, empty), "tip_angle_after"), 1e-9);
+}
+
+TEST(StandEmptyAndFilledGoal, NeedsBothStates) {
+  // Empty the centre is above the foot; the filling pulls it over.
+  const Moments outer = bodyAt({0.4, 0, 1.0}, 1.0);
+  const Moments empty = bodyAt({0.1, 0, 1.0}, 0.5);
+  EXPECT_TRUE(makeStandGoal(square(0.5), kPublished, 1.0)->isReached(empty));
+  const auto goal = makeStandEmptyAndFilledGoal(square(0.5), outer, 1.0, kPublished, 1.0);
+  EXPECT_FALSE(goal->isReached(empty));
+  EXPECT_NE(goal->worstViolation(empty).find("filled"), std::string::npos);
+}
+
+TEST(RollUprightGoal, CountsTheRestingFaces) {
+  // A tumbler with its centre of mass above and below the centre of its round foot.
+  const TriangleMesh tumbler = transformed(capsule(0.3, 0.3, 160), Mat3::Identity(), {0, 0, 0.45});
+  const auto goal = makeRollUprightGoal({}, tumbler.vertices, kPublished, 1.0);
+  EXPECT_TRUE(goal->isReached(bodyAt({0, 0, 0.2})));
+  EXPECT_FALSE(goal->isReached(bodyAt({0, 0, 0.45})));
+  EXPECT_EQ(std::get<int>(described(*goal, bodyAt({0, 0, 0.2})).at("resting_faces_after")), 1);
+  expectGradientsMatch(*goal, bodyAt({0.01, 0.02, 0.2}));
+}
+
+TEST(FloatGoal, HasTheGradientsOfItsValues) {
+  const TriangleMesh hull = transformed(blob(5), someRotation(), {0.2, -0.1, 1.2});
+  for (const double level : {0.3, 1.0}) {
+    expectGradientsMatch(*makeFloatGoal(hull.vertices, hull.faces, level, 0.8, kPublished, 1.0),
+                         0.5 * momentsOf(hull));
+  }
+}
+
+/// A box of 1 × 0.8 × 0.5 on the ground.
+TriangleMesh groundedBox() {
+  return transformed(box({1, 0.8, 0.5}, 3), Mat3::Identity(), {0, 0, 0.25});
+}
+
+TEST(FloatGoal, HoldsForABoxOfTheRightDensity) {
+  // A homogeneous box of density s floats at the share s of its height; BM = b²/(12 sh).
+  const TriangleMesh b = groundedBox();
+  for (const double s : {0.3, 0.6}) {
+    const auto goal = makeFloatGoal(b.vertices, b.faces, s, 1.0, kPublished, 100.0);
+    const Moments m = s * momentsOf(b);
+    EXPECT_LT(largestViolation(*goal, m), 1e-12);
+    EXPECT_TRUE(goal->isReached(m));
+    const Report report = described(*goal, m);
+    EXPECT_NEAR(number(report, "draught_after"), 50 * s, 1e-9);
+    EXPECT_NEAR(number(report, "heel_angle_after"), 0, 1e-6);
+    EXPECT_NEAR(number(report, "metacentric_height_after"),
+                100 * (0.64 / (12 * s * 0.5) - 0.25 * (1 - s)), 1e-7);
+    EXPECT_NEAR(number(report, "metacentric_height_long_after"),
+                100 * (1 / (12 * s * 0.5) - 0.25 * (1 - s)), 1e-7);
+    EXPECT_NEAR(number(report, "reserve_buoyancy_after"), 1 - s, 1e-12);
+    // Heavier, aside, or top-heavy beyond the metacentre it fails.
+    EXPECT_NEAR(goal->equalities(1.1 * m).values[0], 0.1 * s, 1e-12);
+    EXPECT_FALSE(goal->isReached(1.1 * m));
+    EXPECT_FALSE(goal->isReached(translated(m, {0.05, 0, 0})));
+    EXPECT_GT(goal->inequalities(translated(m, {0, 0, 0.5})).values[0], 0.0);
+    EXPECT_FALSE(goal->isReached(translated(m, {0, 0, 0.5})));
+  }
+}
+
+TEST(FloatGoal, UnderWaterNeedsNeutralWeightAndALowCentre) {
+  const TriangleMesh ball = transformed(sphere(8), Mat3::Identity(), {0, 0, 1});
+  const auto goal = makeFloatGoal(ball.vertices, ball.faces, 1.0, 0.8, kPublished, 1.0);
+  const double neutral = 0.8 * momentsOf(ball)[0];
+  const double middle = momentsOf(ball)[3] / momentsOf(ball)[0];
+  EXPECT_TRUE(goal->isReached(bodyAt({0, 0, middle - 0.1}, neutral)));
+  EXPECT_LT(largestViolation(*goal, bodyAt({0, 0, middle - 0.1}, neutral)), 1e-9);
+  EXPECT_FALSE(goal->isReached(bodyAt({0, 0, middle + 0.1}, neutral)));
+  EXPECT_GT(largestViolation(*goal, bodyAt({0, 0, middle + 0.1}, neutral)), 0.05);
+  EXPECT_FALSE(goal->isReached(bodyAt({0, 0, middle - 0.1}, 1.01 * neutral)));
+  EXPECT_FALSE(goal->isReached(bodyAt({0, 0, middle - 0.1}, 0.99 * neutral)));
+}
+
+TEST(HangGoal, HasTheGradientsOfItsValues) {
+  const Moments m = momentsOf(transformed(blob(5), someRotation(), {0.2, -0.1, 0.7}));
+  expectGradientsMatch(*makeHangGoal({0.1, 0.2, 2.0}, kPublished, 1.0), m);
+}
+
+TEST(HangGoal, FindsTheAngleOfAnLShape) {
+  // Two bars of 1 × 1 and 3 × 1 cells, hung from the corner: c = (1.25, 0.75) of the L whose cells
+  // are (0,0), (1,0), (2,0), (0,1); from the top left corner (0, 2) it hangs off by
+  // atan(1.25 / (2 − 0.75)) = 45°.
+  const TriangleMesh cells = polycube({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 0, 1}}, 2);
+  const Moments m = translated(momentsOf(cells), {0, -0.5, 0});
+  const auto goal = makeHangGoal({0, 0, 2}, kPublished, 10.0);
+  const Report report = described(*goal, m);
+  EXPECT_NEAR(number(report, "hanging_angle_after"), 45.0, 1e-9);
+  EXPECT_NEAR(number(report, "hanging_depth_after"), 12.5, 1e-9);
+  EXPECT_FALSE(goal->isReached(m));
+  EXPECT_NEAR(largestViolation(*goal, m), 1.25, 1e-12);
+  const auto above = makeHangGoal({1.25, 0, 2}, kPublished, 10.0);
+  EXPECT_TRUE(above->isReached(m));
+  EXPECT_LT(largestViolation(*above, m), 1e-12);
+}
+
+TEST(HangGoal, IsNotReachedWithTheCentreAboveThePoint) {
+  const auto goal = makeHangGoal({0, 0, 0.5}, kPublished, 1.0);
+  EXPECT_FALSE(goal->isReached(bodyAt({0, 0, 0.6})));
+  EXPECT_NEAR(number(described(*goal, bodyAt({0, 0, 0.6})), "hanging_angle_after"), 180, 1e-6);
+  EXPECT_GT(largestViolation(*goal, bodyAt({0, 0, 0.6})), 0.1);
+}
+
+TEST(MassGoal, HasTheGradientsOfItsValues) {
+  const Moments m = momentsOf(blob(5));
+  expectGradientsMatch(*makeMassGoal(m[0], 0.4 * m[0], kPublished, 1.0), m);
+  expectGradientsMatch(*makeMassGoal(m[0], std::nullopt, kPublished, 1.0), m);
+}
+
+TEST(MassGoal, MeasuresInGrams) {
+  const auto goal = makeMassGoal(2.0, 1.0, kPublished, 30.0);
+  EXPECT_NEAR(goal->objective(bodyAt({0, 0, 0}, 1.5)).value, 0.0625, 1e-12);
+  EXPECT_NEAR(number(described(*goal, bodyAt({0, 0, 0}, 1.5)), "mass_error_after"), 15.0, 1e-9);
+  EXPECT_FALSE(goal->isReached(bodyAt({0, 0, 0}, 1.5)));
+  EXPECT_TRUE(goal->isReached(bodyAt({0, 0, 0}, 1.0)));
+  EXPECT_NE(goal->worstViolation(bodyAt({0, 0, 0}, 1.5)).find("15 g too large"), std::string::npos);
+}
+
+TEST(MassGoal, WithoutATargetPrefersTheLighterBody) {
+  const auto goal = makeMassGoal(2.0, std::nullopt, kPublished, 1.0);
+  EXPECT_EQ(largestViolation(*goal, bodyAt({0, 0, 0}, 1.5)), 0.0);
+  EXPECT_LT(goal->objective(bodyAt({0, 0, 0}, 0.5)).value,
+            goal->objective(bodyAt({0, 0, 0}, 1.5)).value);
 }
 
 } // namespace

@@ -637,6 +637,55 @@ TEST(Pipeline, TellsItsProgressInOrder) {
   for (const std::string& stage : stages) EXPECT_FALSE(stage.empty());
 }
 
+/// Of the cavity.
+Vec3 centreOfCavity(const Result& result) {
+  const auto m = quadratureMoments(result.inner);
+  return m.segment<3>(1) / m[0]; // both negative, as the normals point inwards
+}
+
+TEST(Pipeline, AFillingHeavierThanTheMaterialInvertsTheOptimum) {
+  Options heavy = stand();
+  heavy.density = 1.0;
+  heavy.fillDensity = 8.0;
+  const TriangleMesh model = leaningPillar();
+  const Result filled = optimizeMassProperties(model, heavy);
+  const Result& empty = resultOf(caseNamed("pillar"));
+  // The cavity that lightens lies in the upper part that leans over, the one that weighs below.
+  const Vec3 centre = point(empty, "center_of_mass_before");
+  EXPECT_GT(centreOfCavity(empty).z(), centre.z() + 0.1);
+  EXPECT_LT(centreOfCavity(filled).z(), centre.z() - 0.1);
+  EXPECT_TRUE(truth(filled, "solved"));
+  EXPECT_GT(number(filled, "tip_angle_after"), 0.0);
+  EXPECT_GT(number(filled, "mass_after"), number(filled, "mass_before"));
+}
+
+TEST(Pipeline, EveryGoalIsReachedWithALightAndAHeavyFilling) {
+  const TriangleMesh model = transformed(roundedBox({1, 1, 2}, 0.15, 6, 2), shear(0.03));
+  for (std::size_t goal = 0; goal < goalNames().size(); ++goal) {
+    for (const bool heavy : {false, true}) {
+      Options options;
+      options.goal = static_cast<GoalKind>(goal);
+      options.density = 1.0;
+      options.fillDensity = heavy ? 2.0 : 0.3;
+      // Floating on its side, and weighing as much as nine tenths or five quarters of the solid do.
+      if (options.goal == GoalKind::Float) options.upAxis = UpAxis::PlusY;
+      options.waterLevel = 0.85; // a square log half under water is unstable
+      options.waterDensity = heavy ? 1.47 : 1.06;
+      options.targetMass = (heavy ? 1.25 : 0.9) * quadratureMoments(model)[0] / 1000;
+      const Result result = optimizeMassProperties(model, options);
+      const std::string name = goalNames()[goal] + (heavy ? ", heavy" : ", light");
+      ASSERT_GT(result.inner.faces.rows(), 0) << name;
+      EXPECT_EQ(intersectingPairs(result.inner), 0U) << name;
+      if (options.goal == GoalKind::RollUpright) { // a pillar lies on its sides, too
+        EXPECT_LT(number(result, "objective_after"), number(result, "objective_before")) << name;
+        EXPECT_GT(integer(result, "resting_faces_after"), 1) << name;
+      } else {
+        EXPECT_TRUE(truth(result, "solved")) << name << ": " << text(result, "message");
+      }
+    }
+  }
+}
+
 // ---------------------------------------------------------------- refusals
 
 void expectRefusal(const TriangleMesh& model, const Options& options, const std::string& word) {
@@ -676,6 +725,16 @@ TEST(Pipeline, RefusesAbsurdParametersByName) {
       {with([](Options& o) { o.density = -1.24; }), "density"},
       {with([](Options& o) { o.density = 0.0; }), "density"},
       {with([](Options& o) { o.fillDensity = -1.0; }), "fill_density"},
+      {with([](Options& o) { o.goal = GoalKind::StandEmptyAndFilled; }), "fill_density"},
+      {with([](Options& o) { o.goal = GoalKind::Float, o.outerUpperBound = 0.1; }),
+       "outer_upper_bound"},
+      {with([](Options& o) { o.goal = GoalKind::YoYo, o.basisSize = 4; }), "basis_k"},
+      {with([](Options& o) { o.waterLevel = 0.0; }), "water_level"},
+      {with([](Options& o) { o.waterLevel = 1.1; }), "water_level"},
+      {with([&](Options& o) { o.waterDensity = nan; }), "water_density"},
+      {with([](Options& o) { o.targetMass = -1.0; }), "target_mass"},
+      {with([&](Options& o) { o.pivot = Vec3(nan, 0, 0); }), "pivot"},
+      {with([](Options& o) { o.pivot = Vec3(0, 0, 1e3); }), "pivot"},
   };
   for (const auto& [options, word] : absurd) expectRefusal(model, options, word);
 }

@@ -2,49 +2,56 @@
 #include "core/pipeline.h"
 
 #include "checks.h"
-
-#include <CGAL/IO/PLY.h>
-#include <CGAL/Simple_cartesian.h>
-#include <CGAL/Surface_mesh.h>
+#include "samples.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <ostream>
 #include <string>
+#include <vector>
 
 namespace massprops::testing {
 namespace {
+
+/// 2 % of its diagonal.
+constexpr double kSkittleMove = 1.903;
 
 struct Sample {
   std::string name;
   GoalKind goal;
   bool reachable;
+  /// What the sample's script changes besides the goal.
+  std::function<void(Options&)> change = [](Options&) {};
 };
 
 void PrintTo(const Sample& sample, std::ostream* os) {
   *os << sample.name;
 }
 
-TriangleMesh read(const std::string& name) {
-  using Mesh = CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3>;
-  Mesh mesh;
-  CGAL::IO::read_PLY(std::string(MASSPROPS_SAMPLE_DIR) + "/" + name + ".ply", mesh,
-                     CGAL::parameters::use_binary_mode(true));
-  TriangleMesh result;
-  result.vertices.resize(static_cast<Eigen::Index>(mesh.number_of_vertices()), 3);
-  result.faces.resize(static_cast<Eigen::Index>(mesh.number_of_faces()), 3);
-  for (const auto v : mesh.vertices()) {
-    const auto& p = mesh.point(v);
-    result.vertices.row(static_cast<Eigen::Index>(v.idx())) << p.x(), p.y(), p.z();
+/// Keys of the goal's verdict, without "before" and "after".
+std::vector<std::string> verdictsOf(GoalKind goal) {
+  switch (goal) {
+  case GoalKind::Stand:
+    return {"stands_"};
+  case GoalKind::Spin:
+    return {"spins_"};
+  case GoalKind::YoYo:
+    return {"sleeps_"};
+  case GoalKind::StandEmptyAndFilled:
+    return {"stands_empty_", "stands_filled_"};
+  case GoalKind::RollUpright:
+    return {"rolls_upright_"};
+  case GoalKind::Float:
+    return {"floats_upright_"};
+  case GoalKind::Hang:
+    return {"hangs_upright_"};
+  case GoalKind::Mass:
+    return {"weighs_target_"};
   }
-  for (const auto f : mesh.faces()) {
-    int corner = 0;
-    for (const auto v : CGAL::vertices_around_face(mesh.halfedge(f), mesh))
-      result.faces(static_cast<Eigen::Index>(f.idx()), corner++) = static_cast<int>(v.idx());
-  }
-  return result;
+  return {};
 }
 
 struct Run {
@@ -57,9 +64,10 @@ const Run& runOf(const Sample& sample) {
   const auto known = runs.find(sample.name);
   if (known != runs.end()) return known->second;
   Run run;
-  run.model = read(sample.name);
+  run.model = sampleMesh(sample.name);
   Options options;
   options.goal = sample.goal;
+  sample.change(options);
   // As in MeshLab: what is delivered fits into floats.
   options.representable = [](const Points& points) {
     return Points(points.cast<float>().cast<double>());
@@ -74,15 +82,33 @@ INSTANTIATE_TEST_SUITE_P(Samples, EverySample,
                                            Sample{"tilted_ellipsoid_top", GoalKind::Spin, true},
                                            Sample{"toy_dinosaur", GoalKind::Stand, true},
                                            Sample{"leaning_ring", GoalKind::Stand, true},
-                                           Sample{"leaning_egg", GoalKind::Stand, false}),
+                                           Sample{"leaning_egg", GoalKind::Stand, false},
+                                           Sample{"toy_dog", GoalKind::Stand, true},
+                                           Sample{"uneven_yo_yo", GoalKind::YoYo, true},
+                                           Sample{"leaning_jar", GoalKind::StandEmptyAndFilled,
+                                                  true, [](Options& o) { o.fillDensity = 0.6; }},
+                                           Sample{"roly_poly", GoalKind::RollUpright, true},
+                                           Sample{"bath_duck", GoalKind::Float, true,
+                                                  [](Options& o) { o.waterLevel = 0.4; }},
+                                           Sample{"hanging_fish", GoalKind::Hang, true},
+                                           Sample{"leaning_skittle", GoalKind::Stand, true,
+                                                  [](Options& o) {
+                                                    o.outerUpperBound = kSkittleMove;
+                                                  }},
+                                           Sample{"game_piece", GoalKind::Mass, true,
+                                                  [](Options& o) { // heavier than the solid
+                                                    o.targetMass = 35.0;
+                                                    o.fillDensity = 5.0;
+                                                  }}),
                          [](const auto& test) { return test.param.name; });
 
 TEST_P(EverySample, FailsAsASolidAndSucceedsHollowWhereItCan) {
   const Sample& sample = GetParam();
   const Result& result = runOf(sample).result;
-  const std::string verdict = sample.goal == GoalKind::Stand ? "stands_" : "spins_";
-  EXPECT_FALSE(std::get<bool>(result.report.at(verdict + "before")));
-  EXPECT_EQ(std::get<bool>(result.report.at(verdict + "after")), sample.reachable);
+  for (const std::string& verdict : verdictsOf(sample.goal)) {
+    EXPECT_FALSE(std::get<bool>(result.report.at(verdict + "before")));
+    EXPECT_EQ(std::get<bool>(result.report.at(verdict + "after")), sample.reachable);
+  }
   EXPECT_EQ(std::get<bool>(result.report.at("solved")), sample.reachable)
       << std::get<std::string>(result.report.at("message"));
 }
@@ -92,20 +118,44 @@ TEST_P(EverySample, HasAPrintableCavity) {
   ASSERT_GT(result.inner.faces.rows(), 0);
   EXPECT_TRUE(isClosedAndOriented(result.inner));
   EXPECT_EQ(intersectingPairs(result.inner), 0U);
-  EXPECT_EQ(intersectingPairs(result.inner, model), 0U);
+  const TriangleMesh& outer = result.outer ? *result.outer : model;
+  EXPECT_EQ(intersectingPairs(result.inner, outer), 0U);
   // Without crossings one vertex would do for each component; a hundred are all over the cavity.
   const Eigen::Index step = std::max<Eigen::Index>(1, result.inner.vertices.rows() / 100);
   for (Eigen::Index v = 0; v < result.inner.vertices.rows(); v += step)
-    EXPECT_NEAR(windingNumber(model, result.inner.vertices.row(v).transpose()), 1.0, 1e-6);
+    EXPECT_NEAR(windingNumber(outer, result.inner.vertices.row(v).transpose()), 1.0, 1e-6);
 }
 
 TEST_P(EverySample, KeepsTheDefaultWallOfOnePercent) {
   const auto& [model, result] = runOf(GetParam());
   const double diagonal =
       (model.vertices.colwise().maxCoeff() - model.vertices.colwise().minCoeff()).norm();
-  const double wall = leastDistance(result.inner, model);
+  const double wall = leastDistance(result.inner, result.outer ? *result.outer : model);
   EXPECT_GE(wall, 0.99 * 0.01 * diagonal);
   EXPECT_NEAR(std::get<double>(result.report.at("min_wall")), wall, 1e-9 * diagonal);
+}
+
+TEST(Samples, TheSkittleStandsOnlyWithAMovedOuterSurface) {
+  Options options;
+  const TriangleMesh skittle = sampleMesh("leaning_skittle");
+  const Result hollow = optimizeMassProperties(skittle, options);
+  EXPECT_FALSE(std::get<bool>(hollow.report.at("stands_after")));
+  options.outerUpperBound = kSkittleMove;
+  const Result moved = optimizeMassProperties(skittle, options);
+  EXPECT_TRUE(std::get<bool>(moved.report.at("solved")));
+  ASSERT_TRUE(moved.outer);
+  EXPECT_EQ(intersectingPairs(*moved.outer), 0U);
+  const Vector moves = (moved.outer->vertices - skittle.vertices).rowwise().norm();
+  EXPECT_LE(moves.maxCoeff(), kSkittleMove + 5e-8);
+  const double ground = skittle.vertices.col(2).minCoeff();
+  for (Eigen::Index v = 0; v < moves.size(); ++v) {
+    // The contact area stays, up to the working frame's 2⁻³² diagonals, and nothing joins it.
+    if (skittle.vertices(v, 2) == ground) {
+      EXPECT_LT(moves[v], 5e-8);
+    } else {
+      EXPECT_GT(moved.outer->vertices(v, 2) - ground, 0.4 * (skittle.vertices(v, 2) - ground));
+    }
+  }
 }
 
 } // namespace

@@ -125,10 +125,127 @@ Sample leaningEgg() {
   return sample;
 }
 
+/// A dog whose big head hangs out over its four feet.
+Sample toyDog() {
+  Implicit trunk = roundCone(Vec3(-22, 0, 37), 12, Vec3(18, 0, 40), 14);
+  trunk = smoothUnion(trunk, roundCone(Vec3(22, 0, 42), 11, Vec3(42, 0, 60), 10), 8);
+  Implicit head = ellipsoid(Vec3(52, 0, 68), Vec3(24, 20, 20));
+  head = smoothUnion(head, roundCone(Vec3(64, 0, 64), 13, Vec3(80, 0, 60), 9), 6);
+  trunk = smoothUnion(trunk, head, 6);
+  trunk = smoothUnion(trunk, limb({{{-28, 0, 42}, 6}, {{-42, 0, 54}, 4.5}, {{-46, 0, 66}, 4}}), 5);
+  // The parts that come in pairs, on the side y > 0.
+  Implicit legs = limb({{{-22, 9, 32}, 9}, {{-24, 10, 16}, 7}, {{-22, 10, 5}, 7}});
+  legs = smoothUnion(legs, limb({{{16, 9, 34}, 9}, {{14, 10, 16}, 7}, {{16, 10, 5}, 7}}), 4);
+  const Implicit ear = roundCone(Vec3(46, 16, 83), 7, Vec3(42, 23, 66), 6);
+  Sample sample{"toy_dog", {}};
+  sample.problem.solid =
+      smoothUnion(smoothUnion(trunk, mirroredY(legs, 4), 6), mirroredY(ear, 4), 4);
+  sample.problem.lower = Vec3(-56, -34, 0);
+  sample.problem.upper = Vec3(96, 34, 98);
+  sample.problem.vertexCount = 5000;
+  return sample;
+}
+
+/// A yo-yo of two unequal halves, one with a boss out of the middle.
+Sample unevenYoYo() {
+  Implicit solid = smoothUnion(ellipsoid(Vec3(0, 0, 11), Vec3(28, 28, 12)),
+                               ellipsoid(Vec3(0.4, -0.3, 29), Vec3(27, 28, 12)), 2);
+  solid = smoothUnion(solid, roundCone(Vec3(0, 0, 12), 9, Vec3(0, 0, 28), 9), 3);
+  solid = smoothUnion(solid, ellipsoid(Vec3(10, 5, 38), Vec3(8, 7, 6)), 5);
+  Sample sample{"uneven_yo_yo", {}};
+  sample.problem.solid = solid;
+  sample.problem.lower = Vec3(-34, -34, 0);
+  sample.problem.upper = Vec3(34, 34, 50);
+  sample.problem.vertexCount = 3000;
+  return sample;
+}
+
+/// A jar on a foot, leaning; its inside takes a liquid.
+Sample leaningJar() {
+  const Implicit belly = roundCone(Vec3(5, 0, 18), 15, Vec3(15, 0, 40), 19);
+  const Implicit neck = roundCone(Vec3(21, 0, 54), 11, Vec3(27, 0, 68), 9);
+  const Implicit foot = roundCone(Vec3(0, 0, 3), 12, Vec3(2, 0, 12), 11);
+  Sample sample{"leaning_jar", {}};
+  sample.problem.solid = smoothUnion(smoothUnion(belly, neck, 8), foot, 6);
+  sample.problem.lower = Vec3(-24, -24, 0);
+  sample.problem.upper = Vec3(46, 24, 84);
+  sample.problem.vertexCount = 3000;
+  return sample;
+}
+
+/// A tumbler: a round belly under a big head, so that the solid lies down on its side.
+Sample rolyPoly() {
+  Implicit solid = smoothUnion(ball(Vec3(0, 0, 25.5), 26), ball(Vec3(1.5, 0, 60), 18), 8);
+  solid = smoothUnion(solid, roundCone(Vec3(1.5, 0, 76), 7, Vec3(3, 0, 84), 4), 6);
+  const Implicit arm = roundCone(Vec3(6, 22, 32), 6, Vec3(14, 22, 26), 5);
+  Sample sample{"roly_poly", {}};
+  sample.problem.solid = smoothUnion(solid, mirroredY(arm, 4), 5);
+  sample.problem.lower = Vec3(-32, -34, 0);
+  sample.problem.upper = Vec3(32, 34, 94);
+  sample.problem.vertexCount = 4000;
+  return sample;
+}
+
+/// A bath duck; made of one piece of plastic it sinks.
+Sample bathDuck() {
+  Implicit solid = ellipsoid(Vec3(-2, 0, 20), Vec3(36, 25, 20.5));
+  solid = smoothUnion(solid, roundCone(Vec3(-28, 0, 26), 9, Vec3(-42, 0, 38), 4), 8);
+  Implicit head = ball(Vec3(17, 0, 50), 17);
+  head = smoothUnion(head, ellipsoid(Vec3(34, 0, 48), Vec3(9, 8, 4)), 3);
+  Sample sample{"bath_duck", {}};
+  sample.problem.solid = smoothUnion(solid, head, 8);
+  sample.problem.lower = Vec3(-52, -30, 0);
+  sample.problem.upper = Vec3(50, 30, 74);
+  sample.problem.vertexCount = 4000;
+  return sample;
+}
+
+/// An ornament on a knob that is not above its middle.
+Sample hangingFish() {
+  Implicit solid = ellipsoid(Vec3(6, 0, 19.6), Vec3(36, 13, 20));
+  solid = smoothUnion(solid, roundCone(Vec3(-26, 0, 20), 7, Vec3(-42, 0, 32), 5.5), 8);
+  solid = smoothUnion(solid, roundCone(Vec3(-26, 0, 20), 7, Vec3(-42, 0, 9), 5.5), 8);
+  solid = smoothUnion(solid, roundCone(Vec3(-7, 0, 37), 5, Vec3(-7, 0, 47), 4), 4);
+  Sample sample{"hanging_fish", {}};
+  sample.problem.solid = solid;
+  sample.problem.lower = Vec3(-56, -20, 0);
+  sample.problem.upper = Vec3(50, 20, 56);
+  sample.problem.vertexCount = 3000;
+  return sample;
+}
+
+/// A skittle that stands neither solid nor hollow, but with a surface moved out a little.
+Sample leaningSkittle() {
+  const Eigen::Matrix3d turn = rotation(Vec3(0, 1, 0), 0.265);
+  const Implicit belly = roundCone(Vec3(3, 0, 9), 12, turn * Vec3(6, 0, 34), 17);
+  const Implicit head = roundCone(turn * Vec3(6, 0, 50), 9, turn * Vec3(7, 0, 66), 12);
+  Sample sample{"leaning_skittle", {}};
+  sample.problem.solid = smoothUnion(belly, head, 10);
+  sample.problem.lower = Vec3(-24, -24, 0);
+  sample.problem.upper = Vec3(56, 24, 88);
+  sample.problem.vertexCount = 3000;
+  return sample;
+}
+
+/// A piece of a board game that shall feel as heavy as the others.
+Sample gamePiece() {
+  Implicit solid = ellipsoid(Vec3(0, 0, 5), Vec3(17, 17, 6.5));
+  solid = smoothUnion(solid, roundCone(Vec3(0, 0, 10), 11, Vec3(0, 0, 34), 6), 5);
+  solid = smoothUnion(solid, ball(Vec3(0, 0, 43), 11), 4);
+  Sample sample{"game_piece", {}};
+  sample.problem.solid = solid;
+  sample.problem.lower = Vec3(-24, -24, 0);
+  sample.problem.upper = Vec3(24, 24, 60);
+  sample.problem.vertexCount = 1500;
+  return sample;
+}
+
 } // namespace
 
 std::vector<Sample> allSamples() {
-  return {boxOnCorner(), tiltedEllipsoidTop(), toyDinosaur(), leaningRing(), leaningEgg()};
+  return {boxOnCorner(), tiltedEllipsoidTop(), toyDinosaur(), leaningRing(), leaningEgg(),
+          toyDog(),      unevenYoYo(),         leaningJar(),  rolyPoly(),    bathDuck(),
+          hangingFish(), leaningSkittle(),     gamePiece()};
 }
 
 } // namespace samples

@@ -211,7 +211,7 @@ TriangleMesh changedSolid(Bytes& bytes) {
 
 Options someOptions(Bytes& bytes, double diagonal) {
   Options options;
-  options.goal = bytes.below(2) == 0 ? GoalKind::Stand : GoalKind::Spin;
+  options.goal = static_cast<GoalKind>(bytes.below(8));
   options.basisSize = 1 + bytes.below(8);
   options.innerLowerBound = diagonal * std::pow(10.0, -3.0 * bytes.share());
   options.innerUpperBound = 0.05 + 0.95 * bytes.share();

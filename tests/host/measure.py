@@ -92,6 +92,33 @@ def spin_measures(vertices, centre, inertia):
     return np.linalg.norm(centre[:2] - pivot), tilt, inertia[2, 2] / high, inertia[2, 2] / low
 
 
+def below(surface, level, slices=400):
+    """Volume and centre of what lies below z = level: areas of horizontal cuts, added up."""
+    vertices, faces = surface
+    triangles = vertices[faces]
+    bottom = vertices[:, 2].min()
+    heights = bottom + (np.arange(slices) + 0.5) / slices * (level - bottom)
+    middle = vertices.mean(axis=0)[:2]
+    area, first = np.zeros(slices), np.zeros((slices, 2))
+    for i, z in enumerate(heights):
+        cut = triangles[(triangles[:, :, 2].min(axis=1) < z) & (triangles[:, :, 2].max(axis=1) > z)]
+        ends = []
+        for k in range(3):  # where the boundary enters, and where it leaves
+            p, q = cut[:, k], cut[:, (k + 1) % 3]
+            t = (z - p[:, 2]) / np.where(q[:, 2] == p[:, 2], np.nan, q[:, 2] - p[:, 2])
+            point = p[:, :2] + t[:, None] * (q - p)[:, :2] - middle
+            ends.append((point, (p[:, 2] > z) & (q[:, 2] <= z), (p[:, 2] <= z) & (q[:, 2] > z)))
+        a = sum(np.where(down[:, None], np.nan_to_num(point), 0) for point, down, _ in ends)
+        b = sum(np.where(up[:, None], np.nan_to_num(point), 0) for point, _, up in ends)
+        cross = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+        area[i] = cross.sum() / 2
+        first[i] = ((a + b) * cross[:, None]).sum(axis=0) / 6
+    step = (level - bottom) / slices
+    volume = area.sum() * step
+    return volume, np.append(first.sum(axis=0) * step / volume + middle,
+                             (area * heights).sum() * step / volume)
+
+
 def point_triangle_distances(p, a, b, c):
     """Distance of each point to its triangle: to the plane where its foot is inside, else to the
     nearest side."""

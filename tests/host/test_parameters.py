@@ -9,7 +9,8 @@ from host import (SAMPLES, HostTest, changed_script, layers_of, meshlabserver, r
 
 TOP = SAMPLES / "tilted_ellipsoid_top.ply"
 SPIN = script_of("tilted_ellipsoid_top")
-STAND_GOAL, SPIN_GOAL = 0, 1
+DUCK = SAMPLES / "bath_duck.ply"
+STAND_GOAL, SPIN_GOAL, YO_YO_GOAL, HANG_GOAL = 0, 1, 2, 6
 
 
 def cotangent_energy(vertices, faces, values):
@@ -191,6 +192,45 @@ class ParametersTest(HostTest):
                                    atol=1e-5 * np.trace(inertia))
         empty, _ = self.top(fill_density=0)
         self.assertGreater(report["mass_after"], 1.05 * empty["mass_after"])
+
+    def test_the_pivot_is_what_the_model_turns_about(self):
+        pivot = {"pivot_x": 4, "pivot_y": -3, "pivot_z": 60}
+        ignored, _ = self.top(goal=HANG_GOAL, **pivot)
+        given, _ = self.top(goal=HANG_GOAL, use_pivot="true", **pivot)
+        arm = given["center_of_mass_before"] - [4, -3, 60]
+        self.assertAlmostEqual(given["hanging_angle_before"],
+                               np.degrees(np.arctan2(np.hypot(*arm[:2]), -arm[2])), delta=1e-4)
+        self.assertNotAlmostEqual(ignored["hanging_angle_before"], given["hanging_angle_before"],
+                                  delta=1)
+        spin, _ = self.top(use_pivot="true", pivot_x=0.5, pivot_y=0, pivot_z=0)
+        self.assertAlmostEqual(spin["axis_offset_before"],
+                               np.hypot(*(spin["center_of_mass_before"][:2] - [0.5, 0])),
+                               delta=1e-4)
+        yo_yo, _ = self.top(goal=YO_YO_GOAL, use_pivot="true", pivot_z=20)
+        self.assertAlmostEqual(yo_yo["middle_offset_before"],
+                               yo_yo["center_of_mass_before"][2] - 20, delta=1e-4)
+
+    def test_water_level_is_the_waterline(self):
+        height = np.ptp(read_ply(DUCK)[0][:, 2])
+        for level in (0.3, 0.6):
+            report, _ = self.run_filter(DUCK, script_of("bath_duck"), water_level=level)
+            self.assertTrue(report["solved"], report["message"])
+            self.assertAlmostEqual(report["draught_after"], level * height, delta=1e-3 * height)
+        neutral, _ = self.run_filter(DUCK, script_of("bath_duck"), water_level=1)
+        self.assertTrue(neutral["solved"], neutral["message"])
+        self.assertAlmostEqual(neutral["reserve_buoyancy_after"], 0, delta=1e-5)
+
+    def test_water_density_is_that_of_the_displaced_liquid(self):
+        fresh, _ = self.run_filter(DUCK, script_of("bath_duck"), water_density=1)
+        heavy, _ = self.run_filter(DUCK, script_of("bath_duck"), water_density=1.2)
+        self.assertAlmostEqual(heavy["mass_after"] / fresh["mass_after"], 1.2, delta=1e-5)
+
+    def test_target_mass_is_the_mass(self):
+        piece, script = SAMPLES / "game_piece.ply", script_of("game_piece")
+        report, _ = self.run_filter(piece, script, target_mass=15, fill_density=0)
+        self.assertAlmostEqual(report["mass_after"], 15, delta=1e-4)
+        light, _ = self.run_filter(piece, script, target_mass=0, fill_density=0)
+        self.assertLess(light["mass_after"], 12)
 
 
 if __name__ == "__main__":

@@ -127,8 +127,18 @@ class RefusalsTest(HostTest):
             with self.subTest(i):
                 self.refuse(cube(), "opt_weight", basis_k=8, **{f"opt_weight_{i}": -1})
 
+    def test_parameters_of_single_goals(self):
+        store, floats, hang, mass = 3, 5, 6, 7
+        self.refuse(cube(), "needs fill_density", goal=store)
+        self.refuse(cube(), "water_level", goal=floats, water_level=0)
+        self.refuse(cube(), "water_level", goal=floats, water_level=1.5)
+        self.refuse(cube(), "water_density", goal=floats, water_density=0)
+        self.refuse(cube(), "outer surface as it is", goal=floats, outer_upper_bound=0.5)
+        self.refuse(cube(), "target_mass", goal=mass, target_mass=-1)
+        self.refuse(cube(), "pivot lies", goal=hang, use_pivot="true", pivot_x=1e6)
+
     def test_entries_that_do_not_exist(self):
-        self.refuse(cube(), "'goal' is entry 2", goal=2)
+        self.refuse(cube(), "'goal' is entry 8", goal=8)
         self.refuse(cube(), "'up_axis' is entry -1", up_axis=-1)
 
 

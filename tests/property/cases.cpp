@@ -57,6 +57,18 @@ double diagonalOf(const TriangleMesh& mesh) {
   return extent(mesh).norm();
 }
 
+double volumeOf(const TriangleMesh& mesh) {
+  const Vec3 base = mesh.vertices.row(0).transpose();
+  double volume = 0.0;
+  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
+    Mat3 corners;
+    for (int k = 0; k < 3; ++k)
+      corners.col(k) = mesh.vertices.row(mesh.faces(f, k)).transpose() - base;
+    volume += corners.determinant() / 6;
+  }
+  return volume;
+}
+
 double shortestEdge(const TriangleMesh& mesh) {
   double least = std::numeric_limits<double>::infinity();
   for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f)
@@ -450,7 +462,7 @@ PropertyCase makeCase(std::uint32_t seed, int number) {
   }
 
   // Pose: as made, or turned and perhaps flattened where it stands.
-  c.options.goal = chance.oneIn(2) ? GoalKind::Stand : GoalKind::Spin;
+  c.options.goal = static_cast<GoalKind>(chance.integer(0, 7));
   if (!cutLimbs && !chance.oneIn(3)) {
     body = transformed(body, chance.turn());
     text << "turned ";
@@ -512,34 +524,53 @@ PropertyCase makeCase(std::uint32_t seed, int number) {
   const double diagonal = diagonalOf(c.body);
   const auto n = static_cast<int>(c.body.vertices.rows());
   o.basisSize = std::min(static_cast<int>(std::lround(chance.logBetween(4.0, 200.0))), n - 1);
-  if (o.basisSize < 4) o.goal = GoalKind::Stand;
+  if (o.basisSize < 5) o.goal = GoalKind::Stand;
   c.wall = diagonal * chance.logBetween(0.003, 0.08);
   o.innerLowerBound = c.wall;
   if (chance.oneIn(3)) o.innerUpperBound = chance.between(0.3, 1.0);
-  if (o.goal == GoalKind::Stand) {
+  const bool stands = o.goal == GoalKind::Stand || o.goal == GoalKind::StandEmptyAndFilled;
+  if (stands || o.goal == GoalKind::RollUpright) {
     // Without a flat foot the radii are needed; with one they may be given.
-    if (!hasFoot(c.body, up) || chance.oneIn(4)) {
+    if ((stands && !hasFoot(c.body, up)) || chance.oneIn(4)) {
       o.radiusX = diagonal * chance.between(0.03, 0.4);
       o.radiusY = diagonal * chance.between(0.03, 0.4);
     }
   }
-  if (chance.oneIn(6)) {
+  const bool outerStays = o.goal == GoalKind::Float || o.goal == GoalKind::StandEmptyAndFilled;
+  if (chance.oneIn(6) && !outerStays) {
     o.outerUpperBound = diagonal * chance.logBetween(0.002, 0.1);
     o.outerLowerBound = chance.oneIn(2) ? 0.0 : chance.between(0.0, 1.0) * o.outerUpperBound;
   }
-  if (chance.oneIn(4)) o.fillDensity = o.density * chance.between(0.0, 3.0);
+  if (chance.oneIn(4) || o.goal == GoalKind::StandEmptyAndFilled) {
+    o.fillDensity = o.density * chance.between(0.01, 3.0);
+  }
+  o.waterLevel = chance.oneIn(5) ? 1.0 : chance.between(0.2, 0.9);
+  o.waterDensity = o.density * chance.between(0.3, 1.5);
+  if (!chance.oneIn(4)) {
+    o.targetMass = chance.between(0.1, 1.2) * o.density * volumeOf(c.body) / 1000.0;
+  }
+  if (chance.oneIn(3)) {
+    const Vec3 lower = c.body.vertices.colwise().minCoeff().transpose();
+    const Vec3 middle = lower + 0.5 * extent(c.body);
+    o.pivot = middle + 0.2 * diagonal * chance.direction();
+  }
   if (chance.oneIn(5)) o.weights.volume = chance.between(0.0, 2.0);
   if (c.floats)
     o.representable = [](const Points& points) {
       return Points(points.cast<float>().cast<double>());
     };
 
-  text << "; " << (o.goal == GoalKind::Stand ? "Stand" : "Spin") << " k " << o.basisSize << " wall "
+  text << "; " << goalNames()[static_cast<std::size_t>(o.goal)] << " k " << o.basisSize << " wall "
        << c.wall / diagonal << " upper " << o.innerUpperBound << " up " << upName(o.upAxis);
   if (o.radiusX) text << " radii " << *o.radiusX / diagonal << ' ' << *o.radiusY / diagonal;
   if (o.outerUpperBound > 0.0)
     text << " outer " << o.outerLowerBound / diagonal << ".." << o.outerUpperBound / diagonal;
   if (o.fillDensity > 0.0) text << " fill " << o.fillDensity / o.density;
+  if (o.goal == GoalKind::Float) {
+    text << " water " << o.waterLevel << " of density " << o.waterDensity / o.density;
+  }
+  if (o.goal == GoalKind::Mass) text << " target " << o.targetMass;
+  if (o.pivot) text << " pivot";
   if (o.weights.volume > 0.0) text << " volume weight " << o.weights.volume;
   c.description = text.str();
   return c;

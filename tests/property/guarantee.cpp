@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <sstream>
 
 namespace massprops::testing {
@@ -355,22 +356,39 @@ bool has(const Result& result, const std::string& key) {
                      [&](const auto& entry) { return entry.first == key; });
 }
 
-/// Violation of the goal's constraints, 0 when all hold, in the units of the working frame; from
-/// above and below where the constraint is scaled.
-double violationOf(const PropertyCase& c, const Upright& frame, const Body& body,
-                   const Body& solid) {
+/// Where the goal's reference point is, in the frame: the origin of Stand, a given or default
+/// pivot.
+Vec3 referenceOf(const PropertyCase& c, const Upright& frame) {
+  const auto working = [&](const Vec3& p) {
+    return Vec3(frame.turn * (p - frame.origin) / frame.length);
+  };
+  const double height = (c.body.vertices * frame.turn.row(2).transpose()).maxCoeff() -
+                        (frame.turn * frame.origin).z();
+  switch (c.options.goal) {
+  case GoalKind::Spin:
+    return c.options.pivot ? working(*c.options.pivot) : Vec3::Zero();
+  case GoalKind::YoYo:
+    return c.options.pivot ? working(*c.options.pivot) : Vec3(0, 0, 0.5 * height / frame.length);
+  case GoalKind::Hang: {
+    if (c.options.pivot) return working(*c.options.pivot);
+    // The ground of the model turned upside down.
+    const int up = static_cast<int>(c.options.upAxis);
+    return working(Upright(c.body, static_cast<UpAxis>((up + 3) % 6)).origin);
+  }
+  default:
+    return Vec3::Zero();
+  }
+}
+
+double standViolation(const PropertyCase& c, const Upright& frame, const Body& body) {
   const Vec3 centre = frame.turn * (body.centre - frame.origin) / frame.length;
   double worst = std::max(0.0, -centre.z());
-  if (c.options.goal == GoalKind::Spin) {
-    const Mat3 inertia = frame.turn * body.inertia * frame.turn.transpose();
-    const double axial = (frame.turn * solid.inertia * frame.turn.transpose())(2, 2);
-    return std::max({worst, std::abs(centre.x()), std::abs(centre.y()),
-                     std::abs(inertia(0, 2)) / axial, std::abs(inertia(1, 2)) / axial});
-  }
-  if (c.options.radiusX) {
-    const Vec2 radii = Vec2(*c.options.radiusX, *c.options.radiusY) / frame.length;
-    const double share = centre.head<2>().cwiseQuotient(radii).squaredNorm();
-    return std::max(worst, 0.5 * radii.minCoeff() * (share - 0.81));
+  std::optional<Vec2> radii;
+  if (c.options.radiusX) radii = Vec2(*c.options.radiusX, *c.options.radiusY) / frame.length;
+  if (!radii && !frame.isFlat) radii = Vec2(0.01, 0.01); // a tumbler's disc
+  if (radii) {
+    const double share = centre.head<2>().cwiseQuotient(*radii).squaredNorm();
+    return std::max(worst, 0.5 * radii->minCoeff() * (share - 0.81));
   }
   for (std::size_t e = 0; e < frame.contact.size(); ++e) {
     const Vec2 p = frame.contact[e];
@@ -381,15 +399,125 @@ double violationOf(const PropertyCase& c, const Upright& frame, const Body& body
   return worst;
 }
 
-double objectiveOf(const PropertyCase& c, const Upright& frame, const Body& body, const Body& solid,
-                   double volumeShare, double violationTerm) {
-  const Vec3 centre = frame.turn * (body.centre - frame.origin) / frame.length;
-  double value = c.options.weights.volume * volumeShare + violationTerm;
-  if (c.options.goal == GoalKind::Stand) return value + centre.head<2>().squaredNorm() + centre.z();
+/// Violation of the goal's constraints, 0 when all hold, in the units of the working frame.
+/// `filled`: the same body with its cavity filled. Float's are checked by its verdict.
+double violationOf(const PropertyCase& c, const Upright& frame, const Body& body,
+                   const Body& filled, const Body& solid) {
+  const Vec3 centre =
+      frame.turn * (body.centre - frame.origin) / frame.length - referenceOf(c, frame);
+  const double aside = centre.head<2>().cwiseAbs().maxCoeff();
+  switch (c.options.goal) {
+  case GoalKind::Stand:
+  case GoalKind::RollUpright:
+    return standViolation(c, frame, body);
+  case GoalKind::StandEmptyAndFilled:
+    return std::max(standViolation(c, frame, body), standViolation(c, frame, filled));
+  case GoalKind::Spin:
+  case GoalKind::YoYo: {
+    const Mat3 inertia = frame.turn * body.inertia * frame.turn.transpose();
+    const double axial = (frame.turn * solid.inertia * frame.turn.transpose())(2, 2);
+    const bool isYoYo = c.options.goal == GoalKind::YoYo;
+    return std::max({isYoYo ? std::abs(centre.z()) : -centre.z(), aside,
+                     std::abs(inertia(0, 2)) / axial, std::abs(inertia(1, 2)) / axial});
+  }
+  case GoalKind::Hang:
+    return std::max(centre.z() + 0.01, aside);
+  case GoalKind::Mass:
+    return c.options.targetMass > 0.0 ? std::abs(body.mass - c.options.targetMass) / solid.mass
+                                      : 0.0;
+  case GoalKind::Float:
+    break;
+  }
+  return 0.0;
+}
+
+double objectiveOf(const PropertyCase& c, const Upright& frame, const Body& body,
+                   const Body& filled, const Body& solid, double volumeShare) {
+  const auto place = [&](const Body& b) {
+    return Vec3(frame.turn * (b.centre - frame.origin) / frame.length - referenceOf(c, frame));
+  };
+  const auto stand = [&](const Vec3& p) { return p.head<2>().squaredNorm() + p.z(); };
+  const Vec3 centre = place(body);
+  const double value = c.options.weights.volume * volumeShare;
   const Mat3 inertia = frame.turn * body.inertia * frame.turn.transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> plane(inertia.topLeftCorner<2, 2>());
-  return value + body.mass / solid.mass * centre.z() +
-         plane.eigenvalues().squaredNorm() / std::pow(inertia(2, 2), 2);
+  const double ratios = plane.eigenvalues().squaredNorm() / std::pow(inertia(2, 2), 2);
+  switch (c.options.goal) {
+  case GoalKind::Stand:
+  case GoalKind::RollUpright:
+  case GoalKind::Hang:
+    return value + stand(centre);
+  case GoalKind::StandEmptyAndFilled:
+    return value + stand(centre) + stand(place(filled));
+  case GoalKind::Spin:
+    return value + body.mass / solid.mass * centre.z() + ratios;
+  case GoalKind::YoYo:
+    return value + ratios;
+  case GoalKind::Float:
+    return value + centre.z();
+  case GoalKind::Mass:
+    return value + std::pow((body.mass - c.options.targetMass) / solid.mass, 2);
+  }
+  return value;
+}
+
+/// Volume below the height `level`, by cuts between the vertices' heights with three points of
+/// Gauss each: the area of a cut is a quadratic function there.
+double volumeBelow(const TriangleMesh& mesh, const Vec3& up, double level) {
+  const Vector heights = mesh.vertices * up;
+  std::vector<double> knots{level};
+  for (const double h : heights)
+    if (h < level) knots.push_back(h);
+  std::sort(knots.begin(), knots.end());
+  const Vec3 u = up.unitOrthogonal();
+  const Vec3 v = up.cross(u);
+  const Vec3 base = mesh.vertices.row(0).transpose();
+  const auto area = [&](double z) {
+    double twice = 0.0;
+    for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
+      Vec2 in = Vec2::Zero();
+      Vec2 out = Vec2::Zero();
+      bool crosses = false;
+      for (int k = 0; k < 3; ++k) {
+        const int i = mesh.faces(f, k);
+        const int j = mesh.faces(f, (k + 1) % 3);
+        if ((heights[i] > z) == (heights[j] > z)) continue;
+        const double t = (z - heights[i]) / (heights[j] - heights[i]);
+        const Vec3 p =
+            (mesh.vertices.row(i) + t * (mesh.vertices.row(j) - mesh.vertices.row(i))).transpose() -
+            base;
+        (heights[i] > z ? in : out) = Vec2(u.dot(p), v.dot(p));
+        crosses = true;
+      }
+      if (crosses) twice += in.x() * out.y() - in.y() * out.x();
+    }
+    return twice / 2;
+  };
+  double volume = 0.0;
+  for (std::size_t k = 1; k < knots.size(); ++k) {
+    const double middle = 0.5 * (knots[k] + knots[k - 1]);
+    const double half = 0.5 * (knots[k] - knots[k - 1]);
+    if (half < 1e-14 * (knots.back() - knots.front())) continue;
+    const double x = std::sqrt(0.6) * half;
+    volume += half / 9 * (5 * area(middle - x) + 8 * area(middle) + 5 * area(middle + x));
+  }
+  return volume;
+}
+
+/// A body that is told to float as wished displaces its own weight there.
+void checkFloating(const PropertyCase& c, const Result& result, const Upright& frame,
+                   const Body& body, Findings& found) {
+  const Vec3 up = frame.turn.row(2).transpose();
+  const double ground = up.dot(frame.origin);
+  const double height = (c.body.vertices * up).maxCoeff() - ground;
+  const double displaced = volumeBelow(c.body, up, ground + c.options.waterLevel * height);
+  found.near("the mass of a body that floats as wished", body.mass,
+             displaced * c.options.waterDensity / 1000, 1e-5 * body.mass);
+  found.near("draught_after", number(result, "draught_after"), c.options.waterLevel * height,
+             0.01 * height);
+  found.require(number(result, "heel_angle_after") < 1.0 &&
+                    number(result, "metacentric_height_after") > 0.0,
+                "solved, but the body heels");
 }
 
 /// The verdict in its own words: tipping angle in degrees, scanned and refined.
@@ -568,7 +696,10 @@ std::vector<std::string> brokenPromises(const PropertyCase& c, const Result& res
   const Moments10 afterMoments = hollow ? Moments10(about(outer) + innerMoments) : inputMoments;
   const Body solid = bodyWith(density * solidMoments);
   const Body before = bodyWith(density * inputMoments);
-  const Body after = bodyWith(density * afterMoments - c.options.fillDensity / 1000 * innerMoments);
+  // Stand empty and filled reports on the empty body.
+  const bool bothStates = c.options.goal == GoalKind::StandEmptyAndFilled;
+  const double filling = c.options.fillDensity / 1000;
+  const Body after = bodyWith(density * afterMoments - (bothStates ? 0.0 : filling) * innerMoments);
   // Coordinates are used rounded to 2⁻³² of the diagonal: errors of the volume up to the area times
   // that, and relative ones that are large where little material is left.
   const auto relative = [&](const Body& body) {
@@ -591,7 +722,8 @@ std::vector<std::string> brokenPromises(const PropertyCase& c, const Result& res
     const Mat3 inertia = std::get<Mat3>(result.report.at("inertia_tensor" + suffix));
     found.near("the error of inertia_tensor" + suffix, (inertia - body.inertia).norm(), 0.0,
                4 * error * body.mass * frame.length * frame.length);
-    if (c.options.goal == GoalKind::Stand) {
+    const GoalKind goal = c.options.goal;
+    if (goal == GoalKind::Stand) {
       const Vec3 c0 = frame.turn * (body.centre - frame.origin) / frame.length;
       const double angle = tippingAngleOf(c, frame, body);
       found.near("tip_angle" + suffix, number(result, "tip_angle" + suffix), angle,
@@ -599,8 +731,18 @@ std::vector<std::string> brokenPromises(const PropertyCase& c, const Result& res
       found.require(std::get<bool>(result.report.at("stands" + suffix)) ==
                         (number(result, "tip_angle" + suffix) > 0.0),
                     "stands", suffix, " does not fit tip_angle", suffix);
-    } else {
-      const Vec3 c0 = frame.turn * (body.centre - frame.origin) / frame.length;
+    } else if (goal == GoalKind::Mass && c.options.targetMass > 0.0) {
+      found.near("mass_error" + suffix, number(result, "mass_error" + suffix),
+                 body.mass - c.options.targetMass, error * body.mass + 1e-8 * solid.mass);
+    } else if (goal == GoalKind::Hang) {
+      const Vec3 arm =
+          frame.turn * (body.centre - frame.origin) / frame.length - referenceOf(c, frame);
+      found.near("hanging_angle" + suffix, number(result, "hanging_angle" + suffix),
+                 std::atan2(arm.head<2>().norm(), -arm.z()) * 180 / kPi,
+                 (1e-6 + 10 * error / std::max(arm.norm(), 1e-3)) * 180 / kPi);
+    } else if (goal == GoalKind::Spin || goal == GoalKind::YoYo) {
+      const Vec3 c0 =
+          frame.turn * (body.centre - frame.origin) / frame.length - referenceOf(c, frame);
       found.near("axis_offset" + suffix, number(result, "axis_offset" + suffix),
                  c0.head<2>().norm() * frame.length, error * frame.length + placeError);
       const Mat3 upright = frame.turn * body.inertia * frame.turn.transpose();
@@ -619,12 +761,19 @@ std::vector<std::string> brokenPromises(const PropertyCase& c, const Result& res
   // Objective, constraints and verdict.
   const double error = relative(after) + relative(before) + 10 * placeError / frame.length;
   const double inertiaError = 100 * error; // by an I_zz that may be small
-  const bool isSpin = c.options.goal == GoalKind::Spin;
-  const double violationBefore = violationOf(c, frame, before, solid);
-  const double violationAfter = violationOf(c, frame, after, solid);
+  const GoalKind goal = c.options.goal;
+  const bool isSpin = goal == GoalKind::Spin || goal == GoalKind::YoYo;
+  const Body filled = bodyWith(density * afterMoments - filling * innerMoments);
+  // A solid body has no cavity to fill, but those that it came with count as cavity.
+  const Body filledBefore = bodyWith((density - filling) * inputMoments + filling * solidMoments);
+  const double violationBefore = violationOf(c, frame, before, filledBefore, solid);
+  const double violationAfter = violationOf(c, frame, after, filled, solid);
   const double told = number(result, "max_constraint_violation");
   // A contact polygon with more than 32 corners is replaced by a smaller one inside.
-  const bool exact = isSpin || c.options.radiusX || frame.contact.size() <= 32;
+  const bool stands = goal == GoalKind::Stand || goal == GoalKind::StandEmptyAndFilled ||
+                      goal == GoalKind::RollUpright;
+  const bool exact =
+      goal != GoalKind::Float && (!stands || c.options.radiusX || frame.contact.size() <= 32);
   const double slack = 1e-8 + (isSpin ? inertiaError : 10 * error);
   found.require(told >= violationAfter - slack && (!exact || told <= violationAfter + slack),
                 "max_constraint_violation is ", told, ", measured ", violationAfter);
@@ -635,18 +784,28 @@ std::vector<std::string> brokenPromises(const PropertyCase& c, const Result& res
       found.require(number(result, "axis_tilt_after") < 0.5 &&
                         number(result, "axis_offset_after") < 1e-3 * frame.length,
                     "solved, but the top wobbles");
-    } else {
+    } else if (goal == GoalKind::Stand) {
       found.require(number(result, "tip_angle_after") > 0.0, "solved, but the body falls over");
+    } else if (goal == GoalKind::StandEmptyAndFilled) {
+      found.require(number(result, "tip_angle_empty_after") > 0.0 &&
+                        number(result, "tip_angle_filled_after") > 0.0,
+                    "solved, but the body falls over");
+    } else if (goal == GoalKind::RollUpright) {
+      found.require(std::get<int>(result.report.at("resting_faces_after")) == 1,
+                    "solved, but it rests on several faces");
+    } else if (goal == GoalKind::Float) {
+      checkFloating(c, result, frame, after, found);
     }
   }
   if (exact) {
     const bool nothingViolated = violationBefore == 0.0 && violationAfter <= 1e-7;
     if (nothingViolated) {
-      found.near("objective_before", number(result, "objective_before"),
-                 objectiveOf(c, frame, before, solid, inputMoments[0] / solidMoments[0], 0.0),
-                 1e-8 + inertiaError);
+      found.near(
+          "objective_before", number(result, "objective_before"),
+          objectiveOf(c, frame, before, filledBefore, solid, inputMoments[0] / solidMoments[0]),
+          1e-8 + inertiaError);
       found.near("objective_after", number(result, "objective_after"),
-                 objectiveOf(c, frame, after, solid, afterMoments[0] / solidMoments[0], 0.0),
+                 objectiveOf(c, frame, after, filled, solid, afterMoments[0] / solidMoments[0]),
                  1e-8 + inertiaError);
     }
   }
