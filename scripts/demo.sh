@@ -2,6 +2,7 @@
 # Sets the machine up, builds, runs the filter through the real meshlabserver on every sample mesh,
 # and writes into out/, for each sample:
 #   <name>_inner.ply   the cavity's surface
+#   <name>_outer.ply   the outer surface, where it moved
 #   <name>_solid.stl   outer and inner surface together, ready for a slicer
 #   <name>_report.txt  the numbers, before and after
 #   <name>.png         a picture of the model cut open
@@ -32,10 +33,23 @@ for name in "$@"; do
   esac
   rm -f "$inner" "$solid" "$report" "$log" "out/$name.png"
 
-  scripts/meshlabserver.sh -i "$mesh" -o "$inner" -l x -s "$script" >>"$log" 2>&1 || {
-    cat "$log" >&2
-    exit 1
-  }
+  moved=
+  if grep -q 'name="outer_upper_bound" value="0"' "$script"; then
+    scripts/meshlabserver.sh -i "$mesh" -o "$inner" -l x -s "$script" >>"$log" 2>&1 || {
+      cat "$log" >&2
+      exit 1
+    }
+  else
+    # The outer surface moves as well: MeshLab saves all layers beside the first one.
+    layers=$(mktemp -d)
+    cp "$mesh" "$layers/model.ply"
+    scripts/meshlabserver.sh -i "$layers/model.ply" -w "$layers/layers.mlp" -s "$script" \
+      >>"$log" 2>&1 || { cat "$log" >&2; exit 1; }
+    moved=out/${name}_outer.ply
+    mv "$layers"/*inneroffsetsurface*.ply "$inner"
+    mv "$layers"/*outeroffsetsurface*.ply "$moved"
+    rm -r "$layers"
+  fi
   sed -nE 's/^([a-z][a-z0-9_]* = .*)$/\1/p' "$log" >"$report"
   if grep -q '^cavity_components = 0$' "$report"; then
     # Without a cavity the last layer is the model itself.
@@ -45,12 +59,12 @@ for name in "$@"; do
   $python scripts/report_table.py "$report" "$name"
 
   if [ -f "$inner" ]; then
-    scripts/meshlabserver.sh -i "$mesh" "$inner" -o "$solid" -l x -s scripts/flatten.mlx \
+    scripts/meshlabserver.sh -i "${moved:-$mesh}" "$inner" -o "$solid" -l x -s scripts/flatten.mlx \
       >>"$log" 2>&1 || { cat "$log" >&2; exit 1; }
   else
     scripts/meshlabserver.sh -i "$mesh" -o "$solid" >>"$log" 2>&1
   fi
-  xvfb-run -a $python scripts/render.py --outer "$mesh" --inner "$inner" --report "$report" \
+  xvfb-run -a $python scripts/render.py --outer "$mesh" --inner "$inner" --moved-outer "$moved" --report "$report" \
     --output "out/$name.png" >>"$log" 2>&1 || { cat "$log" >&2; exit 1; }
 done
 

@@ -22,6 +22,7 @@ CAVITY = (0.56, 0.50, 0.76)
 BEFORE = (0.80, 0.10, 0.10)
 AFTER = (0.05, 0.50, 0.15)
 CONTACT = (0.05, 0.30, 0.75)
+WATER = (0.15, 0.50, 0.75)
 INK = (0.13, 0.13, 0.15)
 
 UP_AXES = ("+Z", "+Y", "+X", "-Z", "-Y", "-X")
@@ -346,7 +347,8 @@ def labels(report, state):
         return value if isinstance(value, float) else None
 
     headline, details = "", []
-    if str(report.get("goal", "")) == "Spin":
+    goal = str(report.get("goal", ""))
+    if goal in ("Spin", "Yo-yo"):
         offset, tilt = get("axis_offset"), get("axis_tilt")
         if offset is not None and tilt is not None:
             headline = f"wobbles: {offset:.2g} mm off the axis, tilted {tilt:.2g}\N{DEGREE SIGN}"
@@ -355,6 +357,37 @@ def labels(report, state):
         ratios = get("moment_ratio_a"), get("moment_ratio_b")
         if None not in ratios:
             details.append(f"moments of inertia Izz/Ia = {ratios[0]:.2f}, Izz/Ib = {ratios[1]:.2f}")
+        middle = get("middle_offset")
+        if middle is not None:
+            details[-1] += f", {abs(middle):.1f} mm off the middle"
+    elif goal == "Stand empty and filled":
+        empty, filled = get("tip_angle_empty"), get("tip_angle_filled")
+        if None not in (empty, filled):
+            stands = "stands" if min(empty, filled) > 0 else "topples"
+            headline = f"{stands}: tipping angle {angle(empty)} empty, {angle(filled)} filled"
+    elif goal == "Roll upright":
+        faces = get("resting_faces")
+        if faces is not None:
+            upright = report.get(f"rolls_upright_{state}") is True
+            headline = "comes back upright" if upright else "does not come back upright"
+            details.append(f"stable resting faces: {faces:.0f}")
+    elif goal == "Float":
+        draught, heel, height = get("draught"), get("heel_angle"), get("metacentric_height")
+        if draught is not None:
+            headline = (f"floats, heel {heel:.1f}\N{DEGREE SIGN}"
+                        if report.get(f"floats_{state}") is True else "sinks")
+            if headline != "sinks":
+                details.append(f"draught {draught:.3g} mm, metacentric height {height:.2g} mm")
+    elif goal == "Hang":
+        tilt = get("hanging_angle")
+        if tilt is not None:
+            headline = f"hangs {tilt:.1f}\N{DEGREE SIGN} off upright"
+    elif goal == "Mass":
+        error = get("mass_error")
+        if error is not None:
+            right = report.get(f"weighs_target_{state}") is True
+            headline = "weighs as wished" if right else f"{abs(error):.3g} g too " + (
+                "heavy" if error > 0 else "light")
     else:
         tip = get("tip_angle")
         if tip is not None:
@@ -480,6 +513,37 @@ def mass_actors(scene, centre, color):
     ]
 
 
+def water_actors(scene, report, state):
+    """The water's surface around a body that floats upright."""
+    draught, heel = report.get(f"draught_{state}"), report.get(f"heel_angle_{state}")
+    if report.get(f"floats_{state}") is not True or heel > 1.0:
+        return []
+    height = scene.ground + draught
+    sheet = actor(flat_polygon(scene.disc, height), WATER, lit=False)
+    sheet.GetProperty().SetOpacity(0.35)
+    return [sheet, line_actor(polygon_outline(scene.disc, height), WATER, 3)]
+
+
+def thread_actors(scene):
+    """The plumb line through the topmost point."""
+    top = scene.points[scene.points[:, 2].argmax()]
+    foot = [top[0], top[1], scene.ground]
+    above = top + [0, 0, 0.1 * scene.height]
+    return [line_actor(segment(top, above), INK, 3),
+            line_actor(dashes(top, foot, 0.018 * scene.height), INK, 2)]
+
+
+def goal_actors(scene, report, state, centre, inertia, color):
+    goal = report.get("goal")
+    if goal in ("Spin", "Yo-yo"):
+        return axis_actors(scene, centre, inertia, color)
+    if goal == "Float":
+        return water_actors(scene, report, state)
+    if goal == "Hang":
+        return thread_actors(scene)
+    return []
+
+
 def axis_actors(scene, centre, inertia, color):
     """The vertical through the pivot, dashed, and the principal axis nearest to it."""
     bottom = np.array([*scene.pivot, scene.ground])
@@ -520,7 +584,6 @@ def render(arguments):
     before = volume_centroid(outer) if before is None else before
     after = vector("center_of_mass_after")
     hollow = after is not None
-    spins = report.get("goal") == "Spin"
     scene = Scene(outer, before, after if hollow else before)
 
     if not arguments.inner and not arguments.report:
@@ -533,16 +596,15 @@ def render(arguments):
 
     window = new_window(SIZE)
     marks = contact_actors(scene) + mass_actors(scene, before, BEFORE)
-    if spins:
-        marks += axis_actors(scene, before, tensor("inertia_tensor_before"), BEFORE)
+    marks += goal_actors(scene, report, "before", before, tensor("inertia_tensor_before"), BEFORE)
     add_panel(window, SIZE, scene, (0.0, 0.08, 0.5, 0.77), body_actors(scene, outer, None), marks)
 
     marks = contact_actors(scene)
     if hollow:
         marks += mass_actors(scene, after, AFTER)
         marks.append(actor(ball(before, 0.009 * scene.diagonal), BEFORE, 0.45, 0.6))
-    if spins and hollow:
-        marks += axis_actors(scene, after, tensor("inertia_tensor_after"), AFTER)
+    if hollow:
+        marks += goal_actors(scene, report, "after", after, tensor("inertia_tensor_after"), AFTER)
     body = body_actors(scene, outer if moved is None else moved, inner)
     if moved is not None:
         body.append(line_actor(outline(poly_data(*outer), scene.plane), BEFORE, 2))
