@@ -93,6 +93,11 @@ void keepOrdered(OffsetBounds& bounds) {
   bounds.lower = bounds.lower.cwiseMin(bounds.upper);
 }
 
+/// Existing cavities would be filled without a new one.
+bool mayMoveOuterAlone(const CavityTask& task) {
+  return task.outer.has_value() && task.inputMoments == task.solidMoments;
+}
+
 /// `freedom`: how much of the range between least and greatest offset may be used, 0…1; at 0 there
 /// is nothing to optimise, and the cavity is as large as the wall allows.
 CavityResult searchWithin(const CavityTask& task, double freedom,
@@ -153,7 +158,9 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
     result.secondsInspection += inspection.seconds();
     if (progress) progress(1.0 - 1.0 / (2.0 + round));
     if (result.inspection.isClean()) {
-      if (result.inspection.components > 0) result.status = CavityStatus::Found;
+      // A moved outer surface may serve the goal alone.
+      const bool cavity = result.inspection.components > 0;
+      if (cavity || mayMoveOuterAlone(task)) result.status = CavityStatus::Found;
       return result;
     }
     tighten(task, result, neighbours, bounds, solid, round < kPatience);
@@ -168,6 +175,7 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
 CavityResult searchCavity(const CavityTask& task, const std::function<void(double)>& progress) {
   // In thin sheets whose triangles are large, what the optimisation bends may fold everywhere.
   CavityResult all;
+  std::optional<CavityResult> outerAlone;
   double done = 0.0;
   const auto tell = [&](double share) {
     done = std::max(done, share);
@@ -181,9 +189,11 @@ CavityResult searchCavity(const CavityTask& task, const std::function<void(doubl
     result.secondsOptimization += all.secondsOptimization;
     result.secondsInspection += all.secondsInspection;
     all = std::move(result);
-    if (all.status == CavityStatus::Found || hopeless) break;
+    const bool found = all.status == CavityStatus::Found;
+    if ((found && all.inspection.components > 0) || hopeless) return all;
+    if (found && !outerAlone) outerAlone = all;
   }
-  return all;
+  return outerAlone ? *outerAlone : all;
 }
 
 bool leavesRoom(const CavityTask& task) {

@@ -33,7 +33,7 @@ struct CavityTask {
 };
 
 enum class CavityStatus {
-  Found,  ///< a cavity that passed inspection
+  Found,  ///< surfaces that passed inspection; without a cavity where only the outer one moves
   NoRoom, ///< the wall leaves no room for any
   NoGain, ///< there is one, but the solid body serves the goal at least as well
 };

@@ -68,6 +68,9 @@ std::string message(const CavityTask& task, const Goal& goalAfter, const CavityR
                       "better.";
   }
   if (task.goal.isReached(before.mass)) sentence += " (by the solid model too)";
+  if (cavity.inspection.components == 0) {
+    sentence += " by moving the outer surface alone, for no cavity has room behind this wall";
+  }
   return after.violation <= kFeasibility ? sentence + "; all constraints hold."
                                          : sentence + ": with the best cavity found " +
                                                goalAfter.worstViolation(after.mass) + ".";
@@ -89,6 +92,7 @@ Report hollowingReport(const Workpiece& piece, const CavityTask& task, const Goa
                        const CavityResult& cavity, const Options& options, const Stages& stages) {
   const Body before = inputBody(task);
   const bool hollow = cavity.status == CavityStatus::Found;
+  const bool hasCavity = hollow && cavity.inspection.components > 0;
   const Body after = hollow ? hollowBody(task, cavity) : before;
   const MassProperties modelBefore = inModel(before.mass, piece.frame, options.density);
   const MassProperties modelAfter = inModel(after.mass, piece.frame, options.density);
@@ -112,7 +116,7 @@ Report hollowingReport(const Workpiece& piece, const CavityTask& task, const Goa
   report.add("inertia_tensor_after", modelAfter.inertiaTensor);
   task.goal.describe(before.mass, "before", report);
   goalAfter.describe(after.mass, "after", report);
-  report.add("min_wall", hollow ? cavity.inspection.leastWall * piece.frame.length : 0.0);
+  report.add("min_wall", hasCavity ? cavity.inspection.leastWall * piece.frame.length : 0.0);
   report.add("cavity_components", hollow ? cavity.inspection.components : 0);
   if (cavity.status == CavityStatus::NoRoom) {
     report.add("largest_wall", stages.largestWall * piece.frame.length);

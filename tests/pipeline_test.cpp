@@ -686,6 +686,26 @@ TEST(Pipeline, EveryGoalIsReachedWithALightAndAHeavyFilling) {
   }
 }
 
+TEST(Pipeline, TheOuterSurfaceMovesAloneWhereTheWallLeavesNoRoom) {
+  // Leans 0.02 beyond the border of its foot.
+  const TriangleMesh model = transformed(roundedBox({1, 1, 2}, 0.15, 6, 2), shear(0.37));
+  Options options = stand();
+  options.innerLowerBound = 0.6; // more than half of its width
+  options.outerUpperBound = 0.15;
+  const Result result = optimizeMassProperties(model, options);
+  EXPECT_EQ(result.inner.faces.rows(), 0);
+  ASSERT_TRUE(result.outer);
+  EXPECT_EQ(result.outer->faces, model.faces);
+  EXPECT_EQ(intersectingPairs(*result.outer), 0U);
+  EXPECT_LT(number(result, "objective_after"), number(result, "objective_before"));
+  EXPECT_GT(number(result, "tip_angle_after"), number(result, "tip_angle_before") + 0.5);
+  EXPECT_GT(number(result, "volume_after"), number(result, "volume_before"));
+  EXPECT_EQ(number(result, "min_wall"), 0.0);
+  EXPECT_NE(text(result, "message").find("outer surface alone"), std::string::npos);
+  const Body body = bodyOf(quadratureMoments(*result.outer));
+  EXPECT_LT((point(result, "center_of_mass_after") - body.centre).norm(), 1e-8);
+}
+
 // ---------------------------------------------------------------- refusals
 
 void expectRefusal(const TriangleMesh& model, const Options& options, const std::string& word) {

@@ -604,7 +604,12 @@ void checkSurface(const PropertyCase& c, const Result& result, const TriangleMes
 void checkOuter(const PropertyCase& c, const Result& result, Findings& found) {
   const bool moves = c.options.outerUpperBound > 0.0;
   const bool hollow = result.inner.faces.rows() > 0;
-  found.require(result.outer.has_value() == (hollow && (moves || c.cavities.faces.rows() > 0)),
+  const bool hadCavities = c.cavities.faces.rows() > 0;
+  const std::string message = std::get<std::string>(result.report.at("message"));
+  const bool alone = message.find("outer surface alone") != std::string::npos;
+  found.require(!alone || (moves && !hollow && !hadCavities),
+                "the outer surface is told to move alone without a reason");
+  found.require(result.outer.has_value() == (alone || (hollow && (moves || hadCavities))),
                 result.outer ? "there is an outer surface without a reason"
                              : "the new outer surface is missing");
   if (!result.outer) return;
@@ -693,7 +698,8 @@ std::vector<std::string> brokenPromises(const PropertyCase& c, const Result& res
   const Moments10 solidMoments = about(c.body);
   const Moments10 inputMoments = solidMoments + about(c.cavities);
   const Moments10 innerMoments = hollow ? about(result.inner) : Moments10(Moments10::Zero());
-  const Moments10 afterMoments = hollow ? Moments10(about(outer) + innerMoments) : inputMoments;
+  const Moments10 afterMoments =
+      hollow || result.outer ? Moments10(about(outer) + innerMoments) : inputMoments;
   const Body solid = bodyWith(density * solidMoments);
   const Body before = bodyWith(density * inputMoments);
   // Stand empty and filled reports on the empty body.
@@ -823,8 +829,10 @@ std::vector<std::string> brokenPromises(const PropertyCase& c, const Result& res
                     number(result, "objective_after"));
     }
   } else {
-    found.near("volume_after without a cavity", number(result, "volume_after"),
-               number(result, "volume_before"), 0.0);
+    if (!result.outer) {
+      found.near("volume_after without a cavity", number(result, "volume_after"),
+                 number(result, "volume_before"), 0.0);
+    }
   }
   return found.sentences;
 }
