@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace massprops {
@@ -97,9 +98,14 @@ public:
   }
 
 private:
+  /// Kept for the next question about the same body: it takes dozens of passes over the mesh.
   FloatingPose pose(const Moments& massMoments) const {
-    const MassProperties body = massProperties(massMoments);
-    return floatingPose(outer_, faces_, body.centerOfMass, body.mass / waterDensity_);
+    if (!known_ || known_->first != massMoments) {
+      const MassProperties body = massProperties(massMoments);
+      known_ = {massMoments,
+                floatingPose(outer_, faces_, body.centerOfMass, body.mass / waterDensity_)};
+    }
+    return known_->second;
   }
   static double heel(const FloatingPose& p) {
     return std::acos(std::clamp(p.up.z(), -1.0, 1.0)) * kDegrees;
@@ -120,6 +126,7 @@ private:
   double draught_ = 0.0, displaced_ = 0.0, metacentre_ = 0.0;
   Vec3 buoyancy_ = Vec3::Zero();
   bool submerged_ = false;
+  mutable std::optional<std::pair<Moments, FloatingPose>> known_;
 };
 
 } // namespace
