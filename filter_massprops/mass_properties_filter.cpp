@@ -4,6 +4,10 @@
 #include "core/vcg_conversion.h"
 #include "filter_massprops/parameters.h"
 
+#include <QApplication>
+#include <QMainWindow>
+
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <new>
@@ -15,37 +19,19 @@ namespace {
 constexpr FilterId kFilter = 0;
 const char* const kName = "Mass Property Optimization";
 
+// Broken into lines here: the dialog of MeshLab 2020.09 reserves too little height for text that it
+// has to wrap, and does not scroll.
 const char* const kInfo =
-    "Hollows a closed model so that its print stands, spins, floats, hangs or rolls upright: finds "
-    "the cavity that brings centre "
-    "of mass and moments of inertia to where the <b>goal</b> needs them, without touching the "
-    "outer "
-    "surface. Wall thickness, material and filling are given; the cavity is a new layer whose "
-    "normals point into the cavity, so that both layers together (<i>Flatten Visible Layers</i>) "
-    "bound the material. Its vertex quality is the wall thickness (<i>Colorize by vertex "
-    "Quality</i>). The numbers before and after are written to the log.<br>"
-    "The model must be closed, manifold and coherently oriented, and may have several parts; its "
-    "existing cavities are replaced. Lengths are read as millimetres.<br><br>"
-    "The offsets of the cavity from the surface towards its mean curvature skeleton are a "
-    "combination of the lowest harmonics of the surface.<br>"
-    "See:<br>"
-    "<i>Przemyslaw Musialski, Thomas Auzinger, Michael Birsak, Michael Wimmer, Leif Kobbelt</i><br>"
-    "<b>\"Reduced-Order Shape Optimization Using Offset Surfaces\"</b><br>"
-    "ACM Transactions on Graphics, volume 34, issue 4, 2015. "
-    "<a href='https://doi.org/10.1145/2766955'>doi:10.1145/2766955</a><br>"
-    "<i>Romain Pr\u00e9vost, Emily Whiting, Sylvain Lefebvre, Olga Sorkine-Hornung</i><br>"
-    "<b>\"Make It Stand: Balancing Shapes for 3D Fabrication\"</b><br>"
-    "ACM Transactions on Graphics, volume 32, issue 4, 2013. "
-    "<a href='https://doi.org/10.1145/2461912.2461957'>doi:10.1145/2461912.2461957</a><br>"
-    "<i>Moritz B\u00e4cher, Emily Whiting, Bernd Bickel, Olga Sorkine-Hornung</i><br>"
-    "<b>\"Spin-It: Optimizing Moment of Inertia for Spinnable Objects\"</b><br>"
-    "ACM Transactions on Graphics, volume 33, issue 4, 2014. "
-    "<a href='https://doi.org/10.1145/2601097.2601157'>doi:10.1145/2601097.2601157</a><br>"
-    "<i>Andrea Tagliasacchi, Ibraheem Alhashim, Matt Olson, Hao Zhang</i><br>"
-    "<b>\"Mean Curvature Skeletons\"</b><br>"
-    "Computer Graphics Forum, volume 31, issue 5, 2012. "
-    "<a href='https://doi.org/10.1111/j.1467-8659.2012.03178.x'>"
-    "doi:10.1111/j.1467-8659.2012.03178.x</a>";
+    "<p style='white-space:pre'>"
+    "Finds the cavity with which a closed model stands, spins, floats, hangs or rolls upright\n"
+    "once it is printed. The outer surface stays; the cavity is a new layer. Its normals point\n"
+    "into the cavity, so that both layers together bound the material (Flatten Visible Layers).\n"
+    "Its vertex quality is the wall thickness. Lengths are read as millimetres. The numbers before\n"
+    "and after are in the log.\n"
+    "See <a href='https://doi.org/10.1145/2766955'>Musialski et al. 2015</a>, "
+    "<a href='https://doi.org/10.1145/2461912.2461957'>Pr\u00e9vost et al. 2013</a>, "
+    "<a href='https://doi.org/10.1145/2601097.2601157'>B\u00e4cher et al. 2014</a>, "
+    "<a href='https://doi.org/10.1111/j.1467-8659.2012.03178.x'>Tagliasacchi et al. 2012</a>.</p>";
 
 /// \throw InvalidInput when the layer's matrix is no invertible affine map
 Placement placementOf(const MeshModel& layer) {
@@ -89,6 +75,23 @@ double diagonalOfCurrentLayer(const MeshDocument& document) {
   return layer == nullptr ? 0.0 : diagonalOf(*layer);
 }
 
+/// The layer's label without the suffix of its file. MeshLab's list of layers hides what comes
+/// after the last dot of a label, hence there is none.
+QString titleOf(const MeshModel& layer) {
+  QString title = layer.label();
+  const QString suffix = "." + layer.suffixName();
+  if (suffix.size() > 1 && title.endsWith(suffix)) title.chop(suffix.size());
+  return title.replace('.', '_');
+}
+
+/// Scripts have no window.
+bool inMeshLabsWindow() {
+  const QWidgetList windows = QApplication::topLevelWidgets();
+  return std::any_of(windows.begin(), windows.end(), [](const QWidget* window) {
+    return qobject_cast<const QMainWindow*>(window) != nullptr;
+  });
+}
+
 /// Adds layers to a document and takes them away again when the rest fails.
 class NewLayers {
 public:
@@ -104,7 +107,7 @@ public:
   /// `quality`: a value for every vertex, or none.
   void add(const TriangleMesh& surface, const char* what, const Vector& quality = {}) {
     added_.reserve(added_.size() + 1);
-    MeshModel* layer = document_.addNewMesh("", input_.label() + " " + what, false);
+    MeshModel* layer = document_.addNewMesh("", titleOf(input_) + " " + what, false);
     added_.push_back(layer);
     toVcg(surface, placement_, layer->cm);
     layer->cm.Tr = input_.cm.Tr;
@@ -119,6 +122,14 @@ public:
   void keep() {
     kept_ = true;
     if (!added_.empty()) document_.setCurrentMesh(added_.back()->id());
+  }
+
+  /// The cavity lies inside of the other layers: they are hidden, so that one sees it.
+  void showLastOnly() {
+    document_.setVisible(input_.id(), false);
+    for (std::size_t i = 0; i + 1 < added_.size(); ++i) {
+      document_.setVisible(added_[i]->id(), false);
+    }
   }
 
 private:
@@ -305,9 +316,8 @@ ReturnedValues MassPropertiesFilter::optimize(MeshDocument& document,
 
   NewLayers layers(document, *input);
   if (result.outer) layers.add(*result.outer, "outer offset surface");
-  if (result.inner.faces.rows() > 0) {
-    layers.add(result.inner, "inner offset surface", result.innerWall);
-  }
+  const bool hasCavity = result.inner.faces.rows() > 0;
+  if (hasCavity) layers.add(result.inner, "inner offset surface", result.innerWall);
   layers.keep();
 
   ReturnedValues values;
@@ -315,6 +325,12 @@ ReturnedValues MassPropertiesFilter::optimize(MeshDocument& document,
     write(key + " = " + toString(value));
     const QVariant returned = std::visit(ToVariant{}, value);
     if (returned.isValid()) values[key] = returned;
+  }
+  if (hasCavity && inMeshLabsWindow()) {
+    layers.showLastOnly();
+    write(
+        "Only the cavity is shown now; Back-Face > Double lights it from outside. Before you "
+        "flatten or cut open (Ctrl and mouse wheel), show the outer layer by a click on its eye.");
   }
   return values;
 }

@@ -17,24 +17,24 @@ QStringList axisNames() {
   return {"+Z", "+Y", "+X", "-Z", "-Y", "-X"};
 }
 
-/// The decimal number that was typed: MeshLab may keep parameters in single precision, where 1.24
-/// becomes 1.2400000095.
-template <class Scalar>
-double asTyped(Scalar value) {
-  if (!std::isfinite(value)) return static_cast<double>(value);
+/// The decimal number that was typed: hosts keep parameters in single precision, where 1.24 becomes
+/// 1.2400000095, even if they hand it over in double precision.
+double asTyped(double value) {
+  const auto single = static_cast<float>(value);
+  if (!std::isfinite(single) || static_cast<double>(single) != value) return value;
   std::array<char, 64> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  char* const end = std::to_chars(text.data(), text.data() + text.size(), single).ptr;
   double result = 0.0;
   std::from_chars(text.data(), end, result);
   return result;
 }
 
 double number(const RichParameterList& parameters, const char* name) {
-  return asTyped(parameters.getFloat(name));
+  return asTyped(static_cast<double>(parameters.getFloat(name)));
 }
 
 double length(const RichParameterList& parameters, const char* name) {
-  return asTyped(parameters.getAbsPerc(name));
+  return asTyped(static_cast<double>(parameters.getAbsPerc(name)));
 }
 
 std::optional<double> unlessZero(double value) {

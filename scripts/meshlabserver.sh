@@ -1,6 +1,7 @@
 #!/bin/sh
 # Runs the installed meshlabserver with our filter on a virtual display; arguments and exit status
-# are meshlabserver's. MASSPROPS_PLUGIN names another build of the filter.
+# are meshlabserver's. MASSPROPS_PLUGIN names another build of the filter. With --host-folder it only
+# prints the folder with the programs and plugins, and the one with MeshLab's libraries.
 #
 # MeshLab looks for plugins only next to its own program or where its package puts them. A private
 # copy of the program with links to all plugins beside it needs no write access to the system.
@@ -20,9 +21,14 @@ if [ ! -d "$host" ] || [ "$program" -nt "$host/meshlabserver" ]; then
   mkdir "$fresh/plugins"
   ln -s "$libraries"/plugins/*.so "$fresh/plugins/"
   ln -sf "$plugin" "$fresh/plugins/libfilter_massprops.so"
-  cp "$program" "$fresh/meshlabserver"
+  cp "$program" "$(dirname "$program")/meshlab" "$fresh"
   rm -rf "$host"
   mv -T "$fresh" "$host" 2>/dev/null || rm -rf "$fresh"
+fi
+
+if [ "${1:-}" = --host-folder ]; then
+  printf '%s\n' "$host" "$libraries"
+  exit
 fi
 
 exec xvfb-run -a env LD_LIBRARY_PATH="$libraries${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}" \

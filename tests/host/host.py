@@ -30,6 +30,13 @@ def changed_script(template, path, **values):
     return path
 
 
+def host_folder():
+    """A folder with copies of MeshLab's programs that load our plugin, and where its libraries are."""
+    done = subprocess.run([ROOT / "scripts" / "meshlabserver.sh", "--host-folder"], check=True,
+                          stdout=subprocess.PIPE)
+    return [pathlib.Path(line) for line in done.stdout.decode().splitlines()]
+
+
 def meshlabserver(*arguments):
     """Exit status and standard output."""
     done = subprocess.run([ROOT / "scripts" / "meshlabserver.sh", *map(str, arguments)],

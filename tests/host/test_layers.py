@@ -32,14 +32,14 @@ class LayersTest(HostTest):
     def test_the_result_is_one_new_last_layer_named_after_the_input(self):
         layers, _ = self.project(self.mesh(), SPIN)
         self.assertEqual([name for name, _ in layers],
-                         ["model_out.ply", "model.plyinneroffsetsurface_out.ply"])
+                         ["model_out.ply", "modelinneroffsetsurface_out.ply"])
 
     def test_a_moved_outer_surface_is_a_layer_before_the_inner_one(self):
         script = changed_script(SPIN, self.folder / "s.mlx", outer_upper_bound=1)
         layers, _ = self.project(self.mesh(), script)
         names = [name for name, _ in layers]
-        self.assertEqual(names, ["model_out.ply", "model.plyouteroffsetsurface_out.ply",
-                                 "model.plyinneroffsetsurface_out.ply"])
+        self.assertEqual(names, ["model_out.ply", "modelouteroffsetsurface_out.ply",
+                                 "modelinneroffsetsurface_out.ply"])
         self.assertEqual(bounds_a_volume(self.folder / names[1], self.folder / names[2]), "")
 
     def test_the_input_layer_is_saved_as_if_the_filter_had_not_run(self):
