@@ -1,5 +1,7 @@
 # MeshLab::plugin: everything a filter plugin needs of one MeshLab version.
 # vcglib:          the vcglib of the same tree.
+# MESHLAB_PLUGIN_LIBRARY: the libmeshlab-common.so it was built for; MESHLAB_PACKAGE_VERSION: of the
+#                  Debian package that the library is from, empty for another one.
 #
 # A plugin runs only in the MeshLab whose headers it was compiled with. Without the three variables
 # below that is the installed Debian package, whose sources are fetched.
@@ -23,6 +25,13 @@ if(NOT _library)
   find_library(MESHLAB_INSTALLED_LIBRARY meshlab-common PATH_SUFFIXES meshlab REQUIRED)
   mark_as_advanced(MESHLAB_INSTALLED_LIBRARY)
   set(_library "${MESHLAB_INSTALLED_LIBRARY}")
+endif()
+
+set(MESHLAB_PLUGIN_LIBRARY "${_library}")
+set(MESHLAB_PACKAGE_VERSION "")
+if(NOT MESHLAB_SOURCE_DIR AND NOT MESHLAB_LIBRARY)
+  execute_process(COMMAND dpkg-query -W -f "\${Version}" meshlab
+                  OUTPUT_VARIABLE MESHLAB_PACKAGE_VERSION COMMAND_ERROR_IS_FATAL ANY)
 endif()
 
 # The plugin interface changed with 2022.02.

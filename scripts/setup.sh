@@ -15,7 +15,7 @@ if [ "${1:-}" = --sanitized ]; then
 fi
 
 packages="
-  meshlab dpkg-dev
+  meshlab dpkg-dev file
   g++ cmake ninja-build
   libcgal-dev libeigen3-dev libspectra-dev libnlopt-dev libnlopt-cxx-dev
   qtbase5-dev libqt5opengl5-dev libglew-dev libgl-dev
