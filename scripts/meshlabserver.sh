@@ -31,5 +31,29 @@ if [ "${1:-}" = --host-folder ]; then
   exit
 fi
 
-exec xvfb-run -a env LD_LIBRARY_PATH="$libraries${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}" \
-  "$host/meshlabserver" "$@"
+# Not xvfb-run: on a busy machine it fails now and then while it cleans up, whatever the program did.
+work=$(mktemp -d)
+screen=
+server=
+finish() {
+  for process in $server $screen; do kill "$process" 2>/dev/null || true; done
+  for process in $server $screen; do wait "$process" 2>/dev/null || true; done
+  rm -rf "$work"
+}
+trap finish EXIT
+trap 'exit 129' HUP INT TERM
+
+Xvfb -displayfd 3 -screen 0 1280x1024x24 -nolisten tcp -noreset 3>"$work/display" >"$work/log" 2>&1 &
+screen=$!
+until [ -s "$work/display" ]; do
+  kill -0 "$screen" 2>/dev/null || { cat "$work/log" >&2; exit 2; }
+  sleep 0.05
+done
+
+DISPLAY=:$(cat "$work/display") LD_LIBRARY_PATH=$libraries${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH} \
+  "$host/meshlabserver" "$@" &
+server=$!
+status=0
+wait "$server" || status=$?
+server=
+exit "$status"
