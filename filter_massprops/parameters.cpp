@@ -59,10 +59,22 @@ void addWeight(RichParameterList& list, const char* name, double value, const ch
 
 } // namespace
 
+// What is asked for, then what it is made of, then what only some goals need, then how it is
+// searched. The help of MeshLab 2020.09 shows about two lines of a tooltip: the meaning comes
+// first.
 RichParameterList dialogParameters(double diagonal) {
   const Options defaults;
   const auto range = static_cast<float>(diagonal);
   RichParameterList list;
+  const auto addNumber = [&](const char* name, double value, const char* label,
+                             const char* meaning) {
+    list.addParam(RichFloat(name, static_cast<float>(value), label, meaning));
+  };
+  const auto addLength = [&](const char* name, double value, const char* label,
+                             const char* meaning) {
+    list.addParam(RichLength(name, static_cast<float>(value), 0.0F, range, label, meaning));
+  };
+
   list.addParam(RichEnum("goal", static_cast<int>(defaults.goal), goalEntries(), "Goal",
                          "What the model shall do once it is printed. Stand: it stands on its "
                          "ground contacts, as hard to tip over as possible. Spin: it spins as a "
@@ -72,85 +84,68 @@ RichParameterList dialogParameters(double diagonal) {
                          "comes back upright from every position, like a tumbler. Float: it floats "
                          "upright at the given waterline. Hang: it hangs upright from its topmost "
                          "point or a given one. Mass: it weighs as much as is asked for."));
+  list.addParam(RichEnum("up_axis", static_cast<int>(defaults.upAxis), axisNames(), "Up axis",
+                         "Axis of the scene that points up when the print is used."));
+  addLength("inner_lower_bound", 0.01F * range, "Minimum wall [mm]",
+            "Least distance of the cavity from the outer surface, in model units (read as mm) or "
+            "percent of the bounding-box diagonal. Parts too thin for it stay solid.");
+  addNumber("density", defaults.density, "Density [g/cm\u00b3]",
+            "Of the material, model units read as mm. 1.24 is PLA.");
+  addNumber("fill_density", defaults.fillDensity, "Filling [g/cm\u00b3]",
+            "Density of what fills the cavity: 0 is air, 1 is water. Stand empty and filled needs "
+            "it.");
+
+  addNumber("radius_x", 0.0, "Contact radius x [mm]",
+            "Half axis of an elliptic contact area along the first horizontal axis (x when z is "
+            "up), in model units. 0: the area is taken from the ground contacts.");
+  addNumber("radius_y", 0.0, "Contact radius y [mm]",
+            "Half axis of an elliptic contact area along the second horizontal axis (y when z is "
+            "up), in model units. 0: the area is taken from the ground contacts.");
+  list.addParam(RichBool("use_pivot", false, "Use the pivot (Spin, Yo-yo, Hang)",
+                         "Whether pivot_x, pivot_y and pivot_z count. Otherwise Spin takes the "
+                         "centre of the ground contact, Yo-yo the point above it at half the "
+                         "height, and Hang the topmost point."));
+  const char* const pivot =
+      "Coordinate in the scene of the point the model turns about. Spin: any point of the axis. "
+      "Yo-yo: the middle of the axle. Hang: the point it hangs from. Only with use_pivot.";
+  addNumber("pivot_x", 0.0, "Pivot x [mm]", pivot);
+  addNumber("pivot_y", 0.0, "Pivot y [mm]", pivot);
+  addNumber("pivot_z", 0.0, "Pivot z [mm]", pivot);
+  addNumber("water_level", defaults.waterLevel, "Waterline (Float)",
+            "How deep it shall lie in the water, as a share of its height: above 0, and 1 is "
+            "neutral under water.");
+  addNumber("water_density", defaults.waterDensity, "Water (Float) [g/cm\u00b3]",
+            "Density of the liquid it floats in: 1 is fresh water, 1.025 the sea.");
+  addNumber("target_mass", defaults.targetMass, "Target mass (Mass) [g]",
+            "Mass that it shall have, filling included, model units read as mm. 0: as light as "
+            "possible.");
+
+  addNumber("inner_upper_bound", defaults.innerUpperBound, "Greatest inner offset",
+            "Greatest depth of the cavity's surface, as a fraction between 0 and 1 of the way from "
+            "the outer surface to the skeleton.");
+  addLength("outer_lower_bound", defaults.outerLowerBound, "Least outer offset [mm]",
+            "Least outward displacement of the outer surface, in model units or percent of the "
+            "diagonal. The outer surface stays when both are 0.");
+  addLength("outer_upper_bound", defaults.outerUpperBound, "Greatest outer offset [mm]",
+            "Greatest outward displacement of the outer surface, in model units or percent of the "
+            "diagonal. The outer surface stays when both are 0.");
   list.addParam(RichInt("basis_k", defaults.basisSize, "Basis functions",
-                        "Number of harmonic functions that describe the cavity, at least 1 and "
-                        "less than the number of vertices. More of them shape the cavity in finer "
-                        "detail and take longer."));
-  list.addParam(RichFloat("radius_x", 0.0F, "Contact radius x",
-                          "Half axis of the elliptic contact area along the first horizontal axis "
-                          "(x when z is up), in model units. 0: taken from the model's ground "
-                          "contacts."));
-  list.addParam(RichFloat("radius_y", 0.0F, "Contact radius y",
-                          "Half axis of the elliptic contact area along the second horizontal axis "
-                          "(y when z is up), in model units. 0: taken from the model's ground "
-                          "contacts."));
-  list.addParam(RichLength("inner_lower_bound", 0.01F * range, 0.0F, range,
-                           "Minimum wall thickness",
-                           "Least distance of the cavity from the outer surface, in model units "
-                           "(read as mm) or percent of the bounding-box diagonal. Parts that are "
-                           "too thin for it stay solid."));
-  list.addParam(RichFloat("inner_upper_bound", static_cast<float>(defaults.innerUpperBound),
-                          "Greatest inner offset",
-                          "Greatest offset of the cavity's surface, as a fraction between 0 and 1 "
-                          "of the distance from the outer surface to the skeleton."));
-  list.addParam(RichLength("outer_lower_bound", static_cast<float>(defaults.outerLowerBound), 0.0F,
-                           range, "Least outer offset",
-                           "Least outward displacement of the outer surface, in model units (read "
-                           "as mm) or percent of the bounding-box diagonal. The outer surface "
-                           "stays when both outer offsets are 0."));
-  list.addParam(RichLength("outer_upper_bound", static_cast<float>(defaults.outerUpperBound), 0.0F,
-                           range, "Greatest outer offset",
-                           "Greatest outward displacement of the outer surface, in model units "
-                           "(read as mm) or percent of the bounding-box diagonal. The outer "
-                           "surface stays when both outer offsets are 0."));
+                        "Number of harmonic functions that shape the cavity, at least 1 and less "
+                        "than the number of vertices. More give finer detail and take longer."));
   const Weights& weights = defaults.weights;
   addWeight(list, "opt_weight_1", weights.volume, "Weight 1: volume",
-            "Weight of the material's volume relative to the solid's.");
-  addWeight(
-      list, "opt_weight_2", weights.centerOfMass, "Weight 2: centre of mass",
-      "Weight of the goal's terms in mass and centre of mass: low, and over the contact area.");
+            "Of the material's volume relative to the solid's.");
+  addWeight(list, "opt_weight_2", weights.centerOfMass, "Weight 2: centre of mass",
+            "Of the goal's terms in mass and centre of mass: low, and over the contact area.");
   addWeight(list, "opt_weight_3", weights.inertia, "Weight 3: moments of inertia",
-            "Weight of the goal's terms in the moments of inertia (Spin, Yo-yo).");
+            "Of the goal's terms in the moments of inertia (Spin, Yo-yo).");
   addWeight(list, "opt_weight_4", weights.smoothness, "Weight 4: smoothness",
-            "Weight of the smoothness of the offsets over the surface.");
+            "Of the smoothness of the offsets over the surface.");
   addWeight(list, "opt_weight_5", weights.constraints, "Weight 5: constraints",
-            "Weight of the squared violation of the goal's constraints; 0 also lifts the "
-            "constraints themselves.");
+            "Of the squared violation of the goal's constraints; 0 also lifts the constraints "
+            "themselves.");
   addWeight(list, "opt_weight_6", weights.outer, "Weight 6: outer displacement",
-            "Weight of the mean squared displacement of the outer surface.");
-  list.addParam(RichEnum("up_axis", static_cast<int>(defaults.upAxis), axisNames(), "Up axis",
-                         "Axis of the scene that points up when the print stands or spins."));
-  list.addParam(RichFloat("density", static_cast<float>(defaults.density), "Density",
-                          "Density of the material in g/cm\u00b3, model units read as mm. 1.24 is "
-                          "PLA."));
-  list.addParam(RichFloat("fill_density", static_cast<float>(defaults.fillDensity),
-                          "Density of the filling",
-                          "Density of what fills the cavity in g/cm\u00b3, model units read as mm. "
-                          "0 is air, 1 is water. Stand empty and filled needs it."));
-  list.addParam(RichBool("use_pivot", false, "Use the pivot",
-                         "Whether pivot_x, pivot_y and pivot_z are given. Otherwise Spin takes the "
-                         "centre of the ground contact, Yo-yo the point above it at half the "
-                         "height, and Hang the topmost point. For Spin, Yo-yo and Hang; other "
-                         "goals ignore it."));
-  const auto addCoordinate = [&](const char* name, const char* label) {
-    list.addParam(RichFloat(name, 0.0F, label,
-                            "Coordinate in the scene of the point the model turns about. Spin: any "
-                            "point of the axis. Yo-yo: the middle of the axle. Hang: the point it "
-                            "hangs from. Counts for these goals only, and only with use_pivot."));
-  };
-  addCoordinate("pivot_x", "Pivot x");
-  addCoordinate("pivot_y", "Pivot y");
-  addCoordinate("pivot_z", "Pivot z");
-  list.addParam(RichFloat("water_level", static_cast<float>(defaults.waterLevel), "Waterline",
-                          "How deep the model shall lie in the water, as a share of its height: "
-                          "above 0, and 1 is neutral under water. For Float only."));
-  list.addParam(
-      RichFloat("water_density", static_cast<float>(defaults.waterDensity), "Density of the water",
-                "Density of the liquid the model floats in, g/cm\u00b3: 1 is fresh water, "
-                "1.025 the sea. For Float only."));
-  list.addParam(RichFloat("target_mass", static_cast<float>(defaults.targetMass), "Target mass",
-                          "Mass that the model shall have, filling included, in grams when model "
-                          "units are mm. 0: as light as possible. For Mass only."));
+            "Of the mean squared displacement of the outer surface.");
   return list;
 }
 

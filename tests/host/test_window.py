@@ -129,7 +129,8 @@ class WindowTest(HostTest):
         dialog = self.open_filter()
 
         labels = [w for w in self.desktop.all(dialog, "label") if self.desktop.shown(w)]
-        shown = [label.name.removesuffix(" (abs and %)") for label in labels]
+        switches = self.desktop.all(dialog, "check box")
+        shown = [w.name.removesuffix(" (abs and %)") for w in labels + switches]
         listed = parameters(diagonal)
         self.assertGreater(len(listed), 10)
         for name, label, _ in listed:
