@@ -22,6 +22,9 @@ constexpr double kBoundSlope = 1.0;
 /// Neighbours share a missing wall: correcting each by a little more needs fewer rounds.
 constexpr double kOverstep = 1.5;
 constexpr double kLeastGain = 0.6;
+constexpr double kFeasibility = 1e-6;
+/// Of what a cavity could gain over the solid; below, another start is not worth its time.
+constexpr double kFarGap = 0.05;
 
 /// Moves the bounds so that what the inspection found cannot happen again in the same way.
 void tighten(const CavityTask& task, const CavityResult& result, const Neighbours& neighbours,
@@ -98,6 +101,26 @@ bool mayMoveOuterAlone(const CavityTask& task) {
   return task.outer.has_value() && task.inputMoments == task.solidMoments;
 }
 
+/// Coefficients whose surface comes near to the limit's cavity.
+Vector towardsLimit(const CavityTask& task, const OffsetModel& model, const Vector& outerStart) {
+  const Vector offsets = offsetsTowards(*task.limit, task.vertices, task.field.directions,
+                                        model.inner.lower, model.inner.upper);
+  return coefficientsFor(model, boundMapInverse(model.inner, offsets), outerStart);
+}
+
+/// Whether a second start may pay: the goal is missed, or a good part of what is possible.
+bool isFarFromLimit(const CavityTask& task, const OptimizeResult& best) {
+  if (!task.limit) return false;
+  const double solid = momentObjective(task.goal, task.weights, task.solidMoments, 1.0);
+  return best.violation > std::max(kFeasibility, task.limit->violation) ||
+         best.objective - task.limit->objective > kFarGap * (solid - task.limit->objective);
+}
+
+bool isBetter(const OptimizeResult& a, const OptimizeResult& b) {
+  if (std::max(a.violation, b.violation) > kFeasibility) return a.violation < b.violation;
+  return a.objective < b.objective;
+}
+
 /// `freedom`: how much of the range between least and greatest offset may be used, 0…1; at 0 there
 /// is nothing to optimise, and the cavity is as large as the wall allows.
 CavityResult searchWithin(const CavityTask& task, double freedom,
@@ -131,9 +154,15 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
     solid = result.cavity.solid;
     model.innerFaces = result.cavity.faces;
     if (freedom > 0.0) {
-      const OptimizeResult best =
-          minimize([&](const Vector& x) { return evaluate(model, task.goal, task.weights, x); },
-                   coefficients, solver);
+      const Problem problem = [&](const Vector& x) {
+        return evaluate(model, task.goal, task.weights, x);
+      };
+      OptimizeResult best = minimize(problem, coefficients, solver);
+      if (round == 0 && isFarFromLimit(task, best)) {
+        OptimizeResult other = minimize(problem, towardsLimit(task, model, outerStart), solver);
+        result.evaluations += other.evaluations;
+        if (isBetter(other, best)) std::swap(best, other);
+      }
       solver.objectiveScale = best.objectiveScale;
       coefficients = best.x;
       result.evaluations += best.evaluations;

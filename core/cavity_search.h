@@ -4,6 +4,7 @@
 #include "core/cavity.h"
 #include "core/goals.h"
 #include "core/inspection.h"
+#include "core/limit.h"
 #include "core/offset_problem.h"
 #include "core/types.h"
 
@@ -28,6 +29,7 @@ struct CavityTask {
   double wall = 0.0;                      ///< working length
   OffsetBounds inner = {};
   std::optional<OffsetBounds> outer = {};
+  std::optional<Limit> limit = {}; ///< empty: not known
   /// Rounds working positions to those that can be delivered, still in the working frame.
   std::function<Points(const Points&)> deliverable = {};
 };

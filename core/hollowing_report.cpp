@@ -8,6 +8,8 @@ namespace {
 
 /// Constraints hold when they are violated by no more than this share of the model's size.
 constexpr double kFeasibility = 1e-6;
+/// The limit is known less exactly.
+constexpr double kReachable = 1e-4;
 
 /// The body that a search ends with, measured on its triangles.
 struct Body {
@@ -52,6 +54,26 @@ MassProperties inModel(const Moments& massMoments, const Frame& frame, double de
   return body;
 }
 
+/// Share of what a cavity could gain that is not gained: in the objective where it can be compared,
+/// else in the violation of the constraints.
+double gapToLimit(const Limit& limit, const Body& before, const Body& after) {
+  const auto gap = [](double ours, double best, double solid) {
+    return solid > best ? std::max(0.0, ours - best) / (solid - best) : 0.0;
+  };
+  const bool comparable = std::max(after.violation, limit.violation) <= kFeasibility &&
+                          before.objective > limit.objective;
+  return comparable ? gap(after.objective, limit.objective, before.objective)
+                    : gap(after.violation, limit.violation, before.violation);
+}
+
+/// What a cavity of any shape could do about a goal that is missed.
+std::string outlook(const CavityTask& task) {
+  if (!task.limit) return "";
+  if (task.limit->violation <= kReachable) return "A cavity of another shape could reach it.";
+  return "No cavity of any shape that keeps this wall can reach it: at best " +
+         task.goal.worstViolation(task.limit->massMoments) + ".";
+}
+
 std::string message(const CavityTask& task, const Goal& goalAfter, const CavityResult& cavity,
                     const Body& before, const Body& after, double largestWall) {
   std::string sentence =
@@ -71,9 +93,10 @@ std::string message(const CavityTask& task, const Goal& goalAfter, const CavityR
   if (cavity.inspection.components == 0) {
     sentence += " by moving the outer surface alone, for no cavity has room behind this wall";
   }
-  return after.violation <= kFeasibility ? sentence + "; all constraints hold."
-                                         : sentence + ": with the best cavity found " +
-                                               goalAfter.worstViolation(after.mass) + ".";
+  return after.violation <= kFeasibility
+             ? sentence + "; all constraints hold."
+             : sentence + ": with the best cavity found " + goalAfter.worstViolation(after.mass) +
+                   ". " + outlook(task);
 }
 
 } // namespace
@@ -116,6 +139,11 @@ Report hollowingReport(const Workpiece& piece, const CavityTask& task, const Goa
   report.add("inertia_tensor_after", modelAfter.inertiaTensor);
   task.goal.describe(before.mass, "before", report);
   goalAfter.describe(after.mass, "after", report);
+  if (task.limit) {
+    report.add("objective_limit", task.limit->objective);
+    report.add("gap_to_limit", gapToLimit(*task.limit, before, after));
+    task.goal.describe(task.limit->massMoments, "limit", report);
+  }
   report.add("min_wall", hasCavity ? cavity.inspection.leastWall * piece.frame.length : 0.0);
   report.add("cavity_components", hollow ? cavity.inspection.components : 0);
   if (cavity.status == CavityStatus::NoRoom) {
@@ -131,6 +159,7 @@ Report hollowingReport(const Workpiece& piece, const CavityTask& task, const Goa
   report.add("evaluations", cavity.evaluations);
   report.add("seconds_skeleton", stages.secondsSkeleton);
   report.add("seconds_basis", stages.secondsBasis);
+  report.add("seconds_limit", stages.secondsLimit);
   report.add("seconds_optimization", cavity.secondsOptimization);
   report.add("seconds_inspection", cavity.secondsInspection);
   return report;

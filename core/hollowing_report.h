@@ -16,6 +16,7 @@ struct Stages {
   double largestWall = 0.0; ///< working length; of use when there is no room for a cavity
   double secondsSkeleton = 0.0;
   double secondsBasis = 0.0;
+  double secondsLimit = 0.0;
 };
 
 /// Whether the cavity serves the goal better than leaving the body solid: it violates the

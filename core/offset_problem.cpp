@@ -5,8 +5,6 @@
 namespace massprops {
 namespace {
 
-using MomentJacobian = Eigen::Matrix<double, 10, Eigen::Dynamic>;
-
 /// d(moments)/d(coefficients) of a surface whose vertex i moves by sign·φ'_i per unit of (Hα)_i.
 MomentJacobian jacobian(const OffsetModel& model, const MomentRates& rates, const Vector& slopes,
                         double sign, bool usesInertia) {
@@ -51,28 +49,17 @@ Evaluation evaluate(const OffsetModel& model, const Goal& goal, const Weights& w
       jacobian(model, momentRates(surfaces.inner, model.innerFaces, model.directions),
                surfaces.innerSlopes, -1.0, goal.usesInertia());
   massJacobian.leftCols(k) = (model.fillDensity - 1.0) * innerJacobian;
-  Eigen::RowVectorXd volumeGradient = Eigen::RowVectorXd::Zero(coefficients.size());
-  volumeGradient.head(k) = -innerJacobian.row(0);
+  Vector volumeGradient = Vector::Zero(coefficients.size());
+  volumeGradient.head(k) = -innerJacobian.row(0).transpose();
   if (model.outer) {
     massJacobian.rightCols(k) =
         jacobian(model, momentRates(surfaces.outer, model.faces, model.directions),
                  surfaces.outerSlopes, 1.0, goal.usesInertia());
-    volumeGradient.tail(k) = massJacobian.rightCols(k).row(0);
+    volumeGradient.tail(k) = massJacobian.rightCols(k).row(0).transpose();
   }
 
-  Evaluation e;
-  const GoalValue value = goal.objective(mass);
-  e.objective = value.value;
-  e.objectiveGradient = (value.gradient * massJacobian).transpose();
-
-  const GoalConstraints equalities = goal.equalities(mass);
-  const GoalConstraints inequalities = goal.inequalities(mass);
-  const Matrix equalityJacobian = equalities.gradients * massJacobian;
-  const Matrix inequalityJacobian = inequalities.gradients * massJacobian;
-
-  // Term 1: volume of the material over that of the solid.
-  e.objective += weights.volume * (outer[0] - inner[0]) / solidVolume;
-  e.objectiveGradient += weights.volume / solidVolume * volumeGradient.transpose();
+  Evaluation e = evaluateMoments(goal, weights, mass, massJacobian,
+                                 (outer[0] - inner[0]) / solidVolume, volumeGradient / solidVolume);
 
   // Term 4: Dirichlet energy δᵀLδ of the inner offsets.
   if (weights.smoothness != 0.0) {
@@ -81,20 +68,6 @@ Evaluation evaluate(const OffsetModel& model, const Goal& goal, const Weights& w
     e.objectiveGradient.head(k) +=
         model.basis.functions.transpose() *
         (2.0 * weights.smoothness * gradient.cwiseProduct(surfaces.innerSlopes));
-  }
-
-  // Term 5: squared violations. Weight 0 leaves the constraints out altogether.
-  if (weights.constraints != 0.0) {
-    const Vector violation = inequalities.values.cwiseMax(0.0);
-    e.objective +=
-        weights.constraints * (equalities.values.squaredNorm() + violation.squaredNorm());
-    e.objectiveGradient += 2.0 * weights.constraints *
-                           (equalityJacobian.transpose() * equalities.values +
-                            inequalityJacobian.transpose() * violation);
-    e.equalities = equalities.values;
-    e.equalityJacobian = equalityJacobian;
-    e.inequalities = inequalities.values;
-    e.inequalityJacobian = inequalityJacobian;
   }
 
   // Term 6: mean squared displacement of the outer surface, Σ M_i ε_i² with ΣM_i = 1.
@@ -111,13 +84,10 @@ Evaluation evaluate(const OffsetModel& model, const Goal& goal, const Weights& w
 double objectiveValue(const Goal& goal, const Weights& weights, const Moments& massMoments,
                       double volumeShare, const SparseMatrix& L, const Vector& innerOffsets,
                       const Vector& mass, const Vector& outerOffsets) {
-  double value = goal.objective(massMoments).value + weights.volume * volumeShare;
+  double value = momentObjective(goal, weights, massMoments, volumeShare);
   if (innerOffsets.size() > 0) {
     value += weights.smoothness * innerOffsets.dot(L * innerOffsets);
   }
-  value +=
-      weights.constraints * (goal.equalities(massMoments).values.squaredNorm() +
-                             goal.inequalities(massMoments).values.cwiseMax(0.0).squaredNorm());
   if (outerOffsets.size() > 0) {
     value += weights.outer * mass.dot(outerOffsets.cwiseAbs2());
   }

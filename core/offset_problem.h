@@ -2,9 +2,8 @@
 #pragma once
 
 #include "core/bounds.h"
-#include "core/goals.h"
 #include "core/harmonics.h"
-#include "core/optimize.h"
+#include "core/objective.h"
 
 #include <optional>
 

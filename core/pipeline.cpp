@@ -5,6 +5,7 @@
 #include "core/harmonics.h"
 #include "core/hollowing_report.h"
 #include "core/laplacian.h"
+#include "core/limit.h"
 #include "core/offset_field.h"
 #include "core/skeleton.h"
 #include "core/solid.h"
@@ -83,6 +84,18 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
     stages.secondsBasis = time.seconds();
     return result;
   });
+  const Moments solidMoments = moments(piece.vertices, piece.faces);
+  const std::unique_ptr<Goal> goal = makeGoal(options, piece, piece.vertices);
+  const double fillDensity = fillingSeenBy(options);
+  const auto limit = [&]() -> std::optional<Limit> {
+    if (options.outerUpperBound > 0.0) return {};
+    const Stopwatch time;
+    const AdmissibleCells cells = admissibleCells(piece.vertices, piece.faces, piece.wall);
+    if (cells.rows() == 0) return {};
+    const Limit result = limitOf(*goal, options.weights, solidMoments, fillDensity, cells);
+    stages.secondsLimit = time.seconds();
+    return result;
+  };
   const Stopwatch skeletonTime;
   const Skeleton skeleton = meanCurvatureSkeleton(piece.vertices, piece.faces);
   stages.secondsSkeleton = skeletonTime.seconds();
@@ -95,14 +108,13 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
       offsetField(piece.vertices, piece.faces, skeleton.points, L, area, kDiffusionLength);
 
   tell(70, "Optimization");
-  const Moments solidMoments = moments(piece.vertices, piece.faces);
-  const std::unique_ptr<Goal> goal = makeGoal(options, piece, piece.vertices);
   const auto representable = [&](const Points& points) {
     return options.representable ? options.representable(points) : points;
   };
   CavityTask task{piece.vertices, piece.faces, field, basis, L, mass, *goal, options.weights};
   task.solidMoments = solidMoments;
-  task.fillDensity = fillingSeenBy(options);
+  task.fillDensity = fillDensity;
+  task.limit = limit();
   task.wall = piece.wall;
   task.inputMoments = solidMoments + moments(piece.cavities.vertices, piece.cavities.faces);
   const auto boundsFor = [&](double wall) {

@@ -1,0 +1,235 @@
+#include "core/limit.h"
+
+#include "core/objective.h"
+#include "core/spatial.h"
+#include "core/validity.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace massprops {
+namespace {
+
+/// Integrals over a cube of volume `volume` that is centred at p and as wide as `edge`.
+Moments cubeMoments(const Vec3& p, double edge, double volume) {
+  const double spread = edge * edge / 12.0;
+  Moments m;
+  m << 1.0, p, p.cwiseAbs2() + Vec3::Constant(spread), p.x() * p.y(), p.y() * p.z(), p.z() * p.x();
+  return volume * m;
+}
+
+constexpr int kUnknown = -1;
+constexpr double kFeasibility = 1e-6;
+/// Of the largest: functions that hardly vary over the region are left out.
+constexpr double kLeastSquare = 1e-10;
+
+/// An octree that is fine where the border of the region may be. Levels count upwards from the
+/// parts of border cells; 1 are the cells.
+class RegionSampler {
+public:
+  RegionSampler(const Points& vertices, const Faces& faces, double wall, double edge)
+      : surface_(vertices, faces), wall_(wall), edge_(edge) {}
+
+  void add(const Vec3& centre) {
+    visit(centre, kTop, kUnknown, kUnknown, surface_.nearest(centre));
+  }
+
+  static constexpr int kTop = 4;
+  double topEdge() const { return edge_ * (1 << (kTop - 1)); }
+
+  AdmissibleCells cells(const Points& vertices, const Faces& faces) const {
+    Points samples(static_cast<Eigen::Index>(samples_.size()), 3);
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      samples.row(static_cast<Eigen::Index>(i)) = samples_[i].transpose();
+    }
+    const std::vector<bool> inside = insideOf(samples, vertices, faces);
+
+    std::vector<Moments> result;
+    int cell = kUnknown;
+    for (const Part& part : parts_) {
+      const bool isInside = inside[static_cast<std::size_t>(part.sample)];
+      const double edge = edge_ * std::ldexp(1.0, part.level - 1);
+      if (part.level > 0) {
+        if (!isInside) continue;
+        const int n = 1 << (part.level - 1);
+        const Vec3 first = part.centre - Vec3::Constant(0.5 * (edge - edge_));
+        for (int j = 0; j < n * n * n; ++j) {
+          result.push_back(cubeMoments(first + edge_ * Vec3(j % n, j / n % n, j / (n * n)), edge_,
+                                       edge_ * edge_ * edge_));
+        }
+        continue;
+      }
+      // The part of the cube behind the plane that is a wall away from the surface.
+      const double depth = isInside ? part.distance : -part.distance;
+      const Vec3 inwards = isInside ? part.away : Vec3(-part.away);
+      const double width = edge * inwards.cwiseAbs().sum();
+      const double share = std::clamp(0.5 + (depth - wall_) / width, 0.0, 1.0);
+      if (share == 0.0) continue;
+      if (part.cell != cell) result.push_back(Moments::Zero());
+      cell = part.cell;
+      result.back() += cubeMoments(part.centre + 0.5 * width * (1.0 - share) * inwards, edge,
+                                   share * edge * edge * edge);
+    }
+    AdmissibleCells rows(static_cast<Eigen::Index>(result.size()), 10);
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      rows.row(static_cast<Eigen::Index>(i)) = result[i].transpose();
+    }
+    return rows;
+  }
+
+private:
+  struct Part {
+    Vec3 centre;
+    double distance; ///< to the surface; `sample` tells the side
+    Vec3 away;       ///< unit, from the nearest point of the surface
+    int level;  ///< 0: part of a border cell; else a cube of cells that are all beyond the wall
+    int cell;   ///< number of the border cell
+    int sample; ///< the point that is on the same side of the surface
+  };
+
+  void visit(const Vec3& centre, int level, int cell, int sample,
+             const SurfaceIndex::Nearest& hint) {
+    const SurfaceIndex::Nearest nearest = surface_.nearest(centre, hint);
+    const double size = edge_ * std::ldexp(1.0, level - 1);
+    const double half = 0.5 * std::sqrt(3.0) * size;
+    if (nearest.distance <= wall_ - half) return;
+    if (sample == kUnknown && (nearest.distance > half || level == 0)) {
+      sample = static_cast<int>(samples_.size());
+      samples_.push_back(centre);
+    }
+    if (level == 0 || nearest.distance >= wall_ + half) {
+      const Vec3 away = (centre - nearest.point) / std::max(nearest.distance, 1e-300);
+      parts_.push_back({centre, nearest.distance, away, level, cell, sample});
+      return;
+    }
+    if (level == 1) cell = borderCells_++;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 step((corner & 1) != 0 ? 0.25 : -0.25, (corner & 2) != 0 ? 0.25 : -0.25,
+                      (corner & 4) != 0 ? 0.25 : -0.25);
+      visit(centre + size * step, level - 1, cell, sample, nearest);
+    }
+  }
+
+  SurfaceIndex surface_;
+  double wall_;
+  double edge_;
+  std::vector<Part> parts_;
+  std::vector<Vec3> samples_;
+  int borderCells_ = 0;
+};
+
+/// How much of a cell is hollow, and its derivative by t: 0…1.
+struct Share {
+  double value, slope;
+};
+
+/// Smooth everywhere: finds the way from any start.
+Share softShare(double t) {
+  const double root = 1.0 / std::sqrt(1.0 + t * t);
+  return {0.5 * (1.0 + t * root), 0.5 * root * root * root};
+}
+
+/// 0 and 1 are reached at |t| = 1: only the cells that the quadric's border cuts are partly hollow.
+Share sharpShare(double t) {
+  if (t <= -1.0) return {0.0, 0.0};
+  if (t >= 1.0) return {1.0, 0.0};
+  return {0.5 + t * (0.75 - 0.25 * t * t), 0.75 * (1.0 - t * t)};
+}
+
+} // namespace
+
+AdmissibleCells admissibleCells(const Points& vertices, const Faces& faces, double wall,
+                                int cells) {
+  const Vec3 low = vertices.colwise().minCoeff();
+  const Vec3 high = vertices.colwise().maxCoeff();
+  RegionSampler sampler(vertices, faces, wall, std::cbrt((high - low).prod() / cells));
+  const double step = sampler.topEdge();
+  for (double x = low.x() + 0.5 * step; x < high.x() + 0.5 * step; x += step) {
+    for (double y = low.y() + 0.5 * step; y < high.y() + 0.5 * step; y += step) {
+      for (double z = low.z() + 0.5 * step; z < high.z() + 0.5 * step; z += step) {
+        sampler.add({x, y, z});
+      }
+    }
+  }
+  return sampler.cells(vertices, faces);
+}
+
+Limit limitOf(const Goal& goal, const Weights& weights, const Moments& solid, double fillDensity,
+              const AdmissibleCells& cells) {
+  const Eigen::Index terms = goal.usesInertia() ? 10 : 4;
+  Limit limit;
+  limit.massMoments = solid;
+  // Functions of unit mean square over the region that are orthogonal there: of one scale each.
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const Rows means = cells.col(0).cwiseInverse().asDiagonal() * cells.leftCols(terms);
+  const double volume = cells.col(0).sum();
+  const Eigen::SelfAdjointEigenSolver<Matrix> spectrum(means.transpose() * cells.leftCols(terms));
+  const Vector& squares = spectrum.eigenvalues();
+  const Eigen::Index rank = (squares.array() > kLeastSquare * squares.maxCoeff()).count();
+  const Matrix whitening = spectrum.eigenvectors().rightCols(rank) *
+                           squares.tail(rank).cwiseInverse().cwiseSqrt().asDiagonal() *
+                           std::sqrt(volume);
+  const Rows psi = means * whitening;
+
+  const auto evaluate = [&](const Vector& q, Share (*shareOf)(double)) {
+    Moments cavity = Moments::Zero();
+    MomentJacobian jacobian = MomentJacobian::Zero(10, rank);
+    const Vector t = psi * q;
+    for (Eigen::Index c = 0; c < cells.rows(); ++c) {
+      const Share share = shareOf(t[c]);
+      if (share.value != 0.0) cavity += share.value * cells.row(c).transpose();
+      if (share.slope != 0.0) {
+        jacobian.noalias() += share.slope * cells.row(c).transpose() * psi.row(c);
+      }
+    }
+    limit.massMoments = solid + (fillDensity - 1.0) * cavity;
+    return evaluateMoments(goal, weights, limit.massMoments, (fillDensity - 1.0) * jacobian,
+                           1.0 - cavity[0] / solid[0], -jacobian.row(0).transpose() / solid[0]);
+  };
+
+  // Half of every cell, almost nothing, almost everything: for several goals there is more than one
+  // minimum.
+  const Vector everything = psi.transpose() * cells.col(0) / volume;
+  OptimizeResult best;
+  best.violation = std::numeric_limits<double>::infinity();
+  for (const double level : {0.0, -2.0, 2.0}) {
+    OptimizeOptions solver;
+    solver.feasibility = kFeasibility;
+    solver.maxEvaluations = 100;
+    OptimizeResult result = minimize([&](const Vector& q) { return evaluate(q, softShare); },
+                                     level * everything, solver);
+    solver.range = 200.0;
+    result =
+        minimize([&](const Vector& q) { return evaluate(q, sharpShare); }, 2.0 * result.x, solver);
+    const bool feasible = std::max(result.violation, best.violation) <= kFeasibility;
+    if (feasible ? result.objective < best.objective : result.violation < best.violation) {
+      best = std::move(result);
+    }
+  }
+  limit.objective = evaluate(best.x, sharpShare).objective;
+  limit.violation = largestViolation(goal, limit.massMoments);
+  limit.quadric.head(terms) = whitening * best.x;
+  return limit;
+}
+
+Vector offsetsTowards(const Limit& limit, const Points& vertices, const Points& directions,
+                      const Vector& lower, const Vector& upper) {
+  constexpr int kSteps = 32;
+  Vector offsets = upper;
+  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
+    for (int step = 0; step <= kSteps && lower[v] < upper[v]; ++step) {
+      const double offset = lower[v] + (upper[v] - lower[v]) * step / kSteps;
+      const Vec3 y = (vertices.row(v) - offset * directions.row(v)).transpose();
+      if (cubeMoments(y, 0.0, 1.0).dot(limit.quadric) <= 0.0) continue;
+      offsets[v] = offset;
+      break;
+    }
+  }
+  return offsets;
+}
+
+} // namespace massprops
