@@ -130,11 +130,20 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   task.deliverable = [&](const Points& working) {
     return toWorking(piece.frame, representable(toModel(piece.frame, working)));
   };
-  CavityResult cavity = searchCavity(
-      task, [&](double share) { tell(70 + static_cast<int>(25.0 * share), "Optimization"); });
-  if (cavity.status == CavityStatus::Found && !isBetterThanSolid(task, cavity)) {
-    cavity.status = CavityStatus::NoGain;
+  const auto tellSearch = [&](double share) {
+    tell(70 + static_cast<int>(25.0 * share), "Optimization");
+  };
+  const auto isUseless = [&](const CavityResult& found) {
+    return found.status == CavityStatus::Found && !isBetterThanSolid(task, found);
+  };
+  CavityResult cavity = searchCavity(task, tellSearch);
+  if (task.limit && isUseless(cavity)) {
+    // What was trimmed off later may have been what the start near the limit lived on.
+    CavityTask plain = task;
+    plain.limit.reset();
+    cavity = searchCavity(plain, tellSearch);
   }
+  if (isUseless(cavity)) cavity.status = CavityStatus::NoGain;
   if (cavity.status == CavityStatus::NoRoom) stages.largestWall = largestWall(task, boundsFor);
 
   tell(95, "Report");
