@@ -69,8 +69,8 @@ double gapToLimit(const Limit& limit, const Body& before, const Body& after) {
 /// What a cavity of any shape could do about a goal that is missed.
 std::string outlook(const CavityTask& task) {
   if (!task.limit) return "";
-  if (task.limit->violation <= kReachable) return "A cavity of another shape could reach it.";
-  return "No cavity of any shape that keeps this wall can reach it: at best " +
+  if (task.limit->violation <= kReachable) return " A cavity of another shape could reach it.";
+  return " No cavity of any shape that keeps this wall can reach it: at best " +
          task.goal.worstViolation(task.limit->massMoments) + ".";
 }
 
@@ -96,7 +96,7 @@ std::string message(const CavityTask& task, const Goal& goalAfter, const CavityR
   return after.violation <= kFeasibility
              ? sentence + "; all constraints hold."
              : sentence + ": with the best cavity found " + goalAfter.worstViolation(after.mass) +
-                   ". " + outlook(task);
+                   "." + outlook(task);
 }
 
 } // namespace

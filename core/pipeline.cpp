@@ -130,8 +130,10 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   task.deliverable = [&](const Points& working) {
     return toWorking(piece.frame, representable(toModel(piece.frame, working)));
   };
+  int percent = 70;
   const auto tellSearch = [&](double share) {
-    tell(70 + static_cast<int>(25.0 * share), "Optimization");
+    percent = std::max(percent, 70 + static_cast<int>(25.0 * share));
+    tell(percent, "Optimization");
   };
   const auto isUseless = [&](const CavityResult& found) {
     return found.status == CavityStatus::Found && !isBetterThanSolid(task, found);
