@@ -1,6 +1,7 @@
 #include "core/bounds.h"
 
-#include "core/spatial.h"
+#include "core/parallel.h"
+#include "core/triangle_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,18 +28,21 @@ OffsetBounds innerBounds(const OffsetField& field, double wall, double factor) {
 OffsetBounds keepingWall(const Points& vertices, const Faces& faces, const OffsetField& field,
                          OffsetBounds bounds, double wall) {
   constexpr int kMostSteps = 20;
-  const SurfaceIndex surface(vertices, faces);
-  const std::vector<SurfaceIndex::Nearest> hints = verticesAsHints(vertices, faces);
-  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
-    double& offset = bounds.lower[v];
-    for (int step = 0; step < kMostSteps && offset <= bounds.upper[v]; ++step) {
-      // The distance grows by at most the step, so that no step goes too far.
-      const Vec3 y = (vertices.row(v) - offset * field.directions.row(v)).transpose();
-      const double missing = wall - surface.nearest(y, hints[static_cast<std::size_t>(v)]).distance;
-      if (missing <= kWallSlack * wall) break;
-      offset += missing;
+  constexpr Eigen::Index kChunk = 1024;
+  const double enough = (1.0 - kWallSlack) * wall;
+  const TriangleTree surface(vertices, faces);
+  forChunks(vertices.rows(), kChunk, [&](const Chunk& chunk) {
+    for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
+      double& offset = bounds.lower[v];
+      for (int step = 0; step < kMostSteps && offset <= bounds.upper[v]; ++step) {
+        // The distance grows by at most the step, so that no step goes too far.
+        const Vec3 y = (vertices.row(v) - offset * field.directions.row(v)).transpose();
+        const TriangleTree::Hit hit = surface.nearest(y, enough * enough);
+        if (hit.face < 0) break;
+        offset += wall - std::sqrt(hit.squaredDistance);
+      }
     }
-  }
+  });
   return bounds;
 }
 
@@ -70,19 +74,22 @@ OffsetBounds outerBounds(const Points& vertices, const OffsetField& field, doubl
 
 BoundedOffsets boundMap(const OffsetBounds& bounds, const Vector& t) {
   BoundedOffsets result{Vector(t.size()), Vector(t.size())};
-  for (Eigen::Index i = 0; i < t.size(); ++i) {
-    const double centre = 0.5 * (bounds.upper[i] + bounds.lower[i]);
-    const double halfWidth = 0.5 * (bounds.upper[i] - bounds.lower[i]);
-    if (halfWidth <= 0.0) {
-      result.offsets[i] = bounds.upper[i];
-      result.slopes[i] = 0.0;
-      continue;
+  constexpr Eigen::Index kChunk = 32768;
+  forChunks(t.size(), kChunk, [&](const Chunk& chunk) {
+    for (Eigen::Index i = chunk.begin; i < chunk.end; ++i) {
+      const double centre = 0.5 * (bounds.upper[i] + bounds.lower[i]);
+      const double halfWidth = 0.5 * (bounds.upper[i] - bounds.lower[i]);
+      if (halfWidth <= 0.0) {
+        result.offsets[i] = bounds.upper[i];
+        result.slopes[i] = 0.0;
+        continue;
+      }
+      const double tau = (t[i] - centre) / halfWidth;
+      const double root = 1.0 / std::sqrt(1.0 + tau * tau);
+      result.offsets[i] = centre + halfWidth * tau * root;
+      result.slopes[i] = root * root * root;
     }
-    const double tau = (t[i] - centre) / halfWidth;
-    const double root = 1.0 / std::sqrt(1.0 + tau * tau);
-    result.offsets[i] = centre + halfWidth * tau * root;
-    result.slopes[i] = root * root * root;
-  }
+  });
   return result;
 }
 

@@ -1,10 +1,13 @@
 #include "core/cavity_search.h"
 
+#include "core/coarse_to_fine.h"
 #include "core/graph.h"
-#include "core/spatial.h"
+#include "core/parallel.h"
 #include "core/stopwatch.h"
+#include "core/triangle_tree.h"
 
 #include <algorithm>
+#include <atomic>
 
 namespace massprops {
 namespace {
@@ -25,6 +28,26 @@ constexpr double kLeastGain = 0.6;
 constexpr double kFeasibility = 1e-6;
 /// Of what a cavity could gain over the solid; below, another start is not worth its time.
 constexpr double kFarGap = 0.05;
+/// How far the cavity retreats from a cap that folds, in walls.
+constexpr double kRetreat = 0.25;
+
+/// Marks the vertices that paths of this length reach from v.
+void markWithin(const CavityTask& task, const Neighbours& neighbours, int v, double length,
+                std::vector<char>& solid) {
+  std::vector<int> stack{v};
+  const auto isNear = [&](int w) {
+    return (task.vertices.row(w) - task.vertices.row(v)).squaredNorm() < length * length;
+  };
+  while (!stack.empty()) {
+    const int u = stack.back();
+    stack.pop_back();
+    if (solid[static_cast<std::size_t>(u)] != 0) continue;
+    solid[static_cast<std::size_t>(u)] = 1;
+    for (const int w : neighbours[static_cast<std::size_t>(u)]) {
+      if (isNear(w)) stack.push_back(w);
+    }
+  }
+}
 
 /// Moves the bounds so that what the inspection found cannot happen again in the same way.
 void tighten(const CavityTask& task, const CavityResult& result, const Neighbours& neighbours,
@@ -43,13 +66,26 @@ void tighten(const CavityTask& task, const CavityResult& result, const Neighbour
   for (const int v : result.inspection.crossing) {
     bounds.upper[v] = std::min(bounds.upper[v], kShrink * result.innerOffsets[v]);
   }
-  const SurfaceIndex outer(result.outer, task.faces);
+  for (const int v : result.inspection.crossing) {
+    const Neighbours::Range around = neighbours[static_cast<std::size_t>(v)];
+    const bool atCap = std::any_of(around.begin(), around.end(), [&](int w) {
+      return result.cavity.solid[static_cast<std::size_t>(w)] != 0;
+    });
+    // Where a cap folds the cavity ends a little earlier, by as much on fine meshes as on coarse
+    // ones.
+    if (atCap) markWithin(task, neighbours, v, kRetreat * task.wall, solid);
+  }
   for (const int v : result.inspection.thin) {
     // Does going deeper lead away from the nearest point of the outer surface?
     const Vec3 y = result.inner.row(v).transpose();
-    const SurfaceIndex::Nearest nearest = outer.nearest(y);
+    const auto nearest = task.faces.row(result.inspection.nearestFace[static_cast<std::size_t>(v)]);
+    const Vec3 a = result.outer.row(nearest[0]).transpose();
+    const Vec3 b = result.outer.row(nearest[1]).transpose();
+    const Vec3 c = result.outer.row(nearest[2]).transpose();
+    const Vec3 weights = nearestWeights(y, a, b, c);
+    const Vec3 away = (y - (weights[0] * a + weights[1] * b + weights[2] * c)).normalized();
     const double missing = task.wall - result.inspection.wall[v];
-    const double gain = -(y - nearest.point).dot(task.field.directions.row(v)) / nearest.distance;
+    const double gain = -away.dot(task.field.directions.row(v).transpose());
     const double step = kOverstep * missing / std::max(std::abs(gain), kLeastGain);
     if (gain > 0.0) {
       bounds.lower[v] = std::max(bounds.lower[v], result.innerOffsets[v] + step);
@@ -76,14 +112,21 @@ void calmOuter(const CavityTask& task, const CavityResult& result, const Neighbo
 bool fillNarrowParts(const CavityTask& task, const Points& inner, const CavitySurface& cavity,
                      std::vector<char>& solid) {
   if (cavity.faces.rows() == 0) return false;
-  const Vector widths = SurfaceIndex(inner, cavity.faces).chords(inner, -task.field.directions);
-  bool any = false;
-  for (Eigen::Index v = 0; v < widths.size(); ++v) {
-    char& mark = solid[static_cast<std::size_t>(v)];
-    if (mark != 0 || widths[v] >= task.wall) continue;
-    mark = 1;
-    any = true;
-  }
+  const TriangleTree tree(inner, cavity.faces,
+                          cavity.faces.rows() == task.faces.rows() ? TriangleTree::Order::Spatial
+                                                                   : TriangleTree::Order::Any);
+  constexpr Eigen::Index kChunk = 1024;
+  std::atomic<bool> any = false;
+  forChunks(inner.rows(), kChunk, [&](const Chunk& chunk) {
+    for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
+      char& mark = solid[static_cast<std::size_t>(v)];
+      if (mark != 0) continue;
+      const Vec3 inwards = -task.field.directions.row(v).transpose();
+      if (tree.firstHit(inner.row(v).transpose(), inwards, task.wall) >= task.wall) continue;
+      mark = 1;
+      any = true;
+    }
+  });
   return any;
 }
 
@@ -99,6 +142,49 @@ void keepOrdered(OffsetBounds& bounds) {
 /// Existing cavities would be filled without a new one.
 bool mayMoveOuterAlone(const CavityTask& task) {
   return task.outer.has_value() && task.inputMoments == task.solidMoments;
+}
+
+Vector rowsAt(const Vector& values, const std::vector<int>& rows) {
+  Vector result(static_cast<Eigen::Index>(rows.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    result[static_cast<Eigen::Index>(i)] = values[rows[i]];
+  }
+  return result;
+}
+
+/// The proxy's vertices are some of the surface's, with the same directions and bounds.
+OptimizeResult optimizeOnProxy(const CavityTask& task, const OffsetModel& fine,
+                               const std::vector<char>& solid, const Vector& start,
+                               const OptimizeOptions& options) {
+  const Proxy& proxy = *task.proxy;
+  Points directions(proxy.mesh.vertices.rows(), 3);
+  std::vector<char> solidAtProxy(proxy.vertexOf.size());
+  for (std::size_t i = 0; i < proxy.vertexOf.size(); ++i) {
+    directions.row(static_cast<Eigen::Index>(i)) = fine.directions.row(proxy.vertexOf[i]);
+    solidAtProxy[i] = solid[static_cast<std::size_t>(proxy.vertexOf[i])];
+  }
+  const OffsetBounds bounds{rowsAt(fine.inner.lower, proxy.vertexOf),
+                            rowsAt(fine.inner.upper, proxy.vertexOf)};
+  OffsetModel coarse{
+      proxy.mesh.vertices, proxy.mesh.faces, directions, fine.basis, fine.L,
+      fine.mass,           bounds,           {},         {},         fine.fillDensity,
+      fine.solidMoments};
+  coarse.innerFaces =
+      cavitySurface(offsetSurfaces(coarse, start).inner, proxy.mesh.faces, std::move(solidAtProxy))
+          .faces;
+  return minimizeCoarseToFine(fine, coarse, task.goal, task.weights, start, options);
+}
+
+OptimizeResult optimizeOffsets(const CavityTask& task, const OffsetModel& model,
+                               const std::vector<char>& solid, const Vector& start,
+                               const OptimizeOptions& options) {
+  /// Below it the whole surface is evaluated quickly enough.
+  constexpr Eigen::Index kWorthAProxy = 12000;
+  const bool onProxy = task.proxy != nullptr && task.vertices.rows() >= kWorthAProxy &&
+                       !model.outer && task.weights.smoothness == 0.0;
+  if (onProxy) return optimizeOnProxy(task, model, solid, start, options);
+  return minimize([&](const Vector& x) { return evaluate(model, task.goal, task.weights, x); },
+                  start, options);
 }
 
 /// Coefficients whose surface comes near to the limit's cavity.
@@ -134,6 +220,8 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
   OffsetModel model{
       task.vertices, task.faces, task.field.directions, task.basis,       task.L, task.mass, bounds,
       task.outer,    {},         task.fillDensity,      task.solidMoments};
+  if (task.proxy != nullptr) model.interpolation = &task.proxy->interpolation;
+  const VertexCorners corners = vertexCorners(task.vertices.rows(), task.faces);
   const Vector middle = 0.5 * (bounds.lower + bounds.upper);
   const Vector outerStart =
       task.outer ? Vector(task.outer->lower + kOuterStart * (task.outer->upper - task.outer->lower))
@@ -142,6 +230,8 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
 
   OptimizeOptions solver;
   CavityResult result;
+  // Once the wall is kept, most rounds only smooth out folds.
+  bool onlyFolds = false;
   for (int round = 0; round < kMostRounds; ++round) {
     result.rounds = round + 1;
     addMarks(solid, tooThin(task.field, bounds));
@@ -150,16 +240,15 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
     model.inner.upper = model.inner.lower + freedom * (model.inner.upper - model.inner.lower);
 
     const Stopwatch optimization;
-    result.cavity = cavitySurface(offsetSurfaces(model, coefficients).inner, task.faces, solid);
+    result.cavity =
+        cavitySurface(offsetSurfaces(model, coefficients).inner, task.faces, corners, solid);
     solid = result.cavity.solid;
     model.innerFaces = result.cavity.faces;
     if (freedom > 0.0) {
-      const Problem problem = [&](const Vector& x) {
-        return evaluate(model, task.goal, task.weights, x);
-      };
-      OptimizeResult best = minimize(problem, coefficients, solver);
+      OptimizeResult best = optimizeOffsets(task, model, solid, coefficients, solver);
       if (round == 0 && isFarFromLimit(task, best)) {
-        OptimizeResult other = minimize(problem, towardsLimit(task, model, outerStart), solver);
+        OptimizeResult other =
+            optimizeOffsets(task, model, solid, towardsLimit(task, model, outerStart), solver);
         result.evaluations += other.evaluations;
         if (isBetter(other, best)) std::swap(best, other);
       }
@@ -183,7 +272,8 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
     result.innerOffsets = std::move(surfaces.innerOffsets);
     result.outerOffsets = std::move(surfaces.outerOffsets);
     result.inspection = inspect(result.inner, result.cavity.faces, result.outer, task.faces,
-                                task.wall, task.outer.has_value());
+                                task.wall, task.outer.has_value(), onlyFolds);
+    onlyFolds = result.inspection.thin.empty() && !result.inspection.crossing.empty();
     result.secondsInspection += inspection.seconds();
     if (progress) progress(1.0 - 1.0 / (2.0 + round));
     if (result.inspection.isClean()) {

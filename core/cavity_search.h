@@ -6,6 +6,7 @@
 #include "core/inspection.h"
 #include "core/limit.h"
 #include "core/offset_problem.h"
+#include "core/proxy.h"
 #include "core/types.h"
 
 #include <functional>
@@ -18,9 +19,9 @@ struct CavityTask {
   const Points& vertices; ///< working frame
   const Faces& faces;
   const OffsetField& field;
-  const HarmonicBasis& basis;
-  const SparseMatrix& L;
-  const Vector& mass; ///< lumped, total 1
+  const HarmonicBasis& basis; ///< on the proxy, when there is one
+  const SparseMatrix& L;      ///< needed where smoothness has a weight
+  const Vector& mass;         ///< lumped, total 1
   const Goal& goal;
   Weights weights = {};
   Moments solidMoments = Moments::Zero(); ///< of the outer surface
@@ -32,6 +33,8 @@ struct CavityTask {
   std::optional<Limit> limit = {}; ///< empty: not known
   /// Rounds working positions to those that can be delivered, still in the working frame.
   std::function<Points(const Points&)> deliverable = {};
+  /// Null: the basis lives on the vertices themselves.
+  const Proxy* proxy = nullptr;
 };
 
 enum class CavityStatus {

@@ -1,57 +1,85 @@
 #include "core/components.h"
 
-#include "core/graph.h"
+#include "core/moments.h"
 #include "core/validity.h"
+
+#include <algorithm>
+#include <numeric>
 
 namespace massprops {
 
-Components connectedComponents(Eigen::Index vertexCount, const Faces& faces) {
-  const Neighbours neighbours = vertexNeighbours(vertexCount, faces);
-  std::vector<int> component(static_cast<std::size_t>(vertexCount), -1);
-  std::vector<std::vector<Eigen::Index>> rows;
+std::vector<int> componentNumbers(Eigen::Index vertexCount, const Faces& faces) {
+  // Sets of vertices, each known by its least member; faces unite them.
+  std::vector<int> parent(static_cast<std::size_t>(vertexCount));
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int v) {
+    auto i = static_cast<std::size_t>(v);
+    while (parent[i] != static_cast<int>(i)) {
+      parent[i] = parent[static_cast<std::size_t>(parent[i])];
+      i = static_cast<std::size_t>(parent[i]);
+    }
+    return static_cast<int>(i);
+  };
   for (Eigen::Index f = 0; f < faces.rows(); ++f) {
-    const auto seed = static_cast<std::size_t>(faces(f, 0));
-    if (component[seed] < 0) {
-      const int label = static_cast<int>(rows.size());
-      rows.emplace_back();
-      component[seed] = label;
-      std::vector<std::size_t> stack{seed};
-      while (!stack.empty()) {
-        const std::size_t v = stack.back();
-        stack.pop_back();
-        for (const int w : neighbours[v]) {
-          if (component[static_cast<std::size_t>(w)] >= 0) continue;
-          component[static_cast<std::size_t>(w)] = label;
-          stack.push_back(static_cast<std::size_t>(w));
-        }
-      }
-    }
-    rows[static_cast<std::size_t>(component[seed])].push_back(f);
+    const int roots[3] = {root(faces(f, 0)), root(faces(f, 1)), root(faces(f, 2))};
+    const int least = std::min({roots[0], roots[1], roots[2]});
+    for (const int r : roots) parent[static_cast<std::size_t>(r)] = least;
   }
+  std::vector<int> label(parent.size(), -1);
+  int count = 0;
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    int& ofRoot = label[static_cast<std::size_t>(root(faces(f, 0)))];
+    if (ofRoot < 0) ofRoot = count++;
+    for (const int v : faces.row(f)) label[static_cast<std::size_t>(v)] = ofRoot;
+  }
+  return label;
+}
+
+Components connectedComponents(Eigen::Index vertexCount, const Faces& faces) {
+  const std::vector<int> number = componentNumbers(vertexCount, faces);
+  std::vector<Eigen::Index> sizes;
+  const auto of = [&](Eigen::Index f) {
+    return static_cast<std::size_t>(number[static_cast<std::size_t>(faces(f, 0))]);
+  };
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    if (sizes.size() <= of(f)) sizes.resize(of(f) + 1, 0);
+    ++sizes[of(f)];
+  }
+  if (sizes.size() == 1) return {faces};
   Components result;
-  for (const std::vector<Eigen::Index>& list : rows) {
-    Faces part(static_cast<Eigen::Index>(list.size()), 3);
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      part.row(static_cast<Eigen::Index>(i)) = faces.row(list[i]);
-    }
-    result.push_back(std::move(part));
+  for (Eigen::Index& size : sizes) {
+    result.emplace_back(size, 3);
+    size = 0;
   }
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) result[of(f)].row(sizes[of(f)]++) = faces.row(f);
   return result;
 }
 
 std::vector<int> nestingDepths(const Points& vertices, const Components& components) {
   std::vector<int> depths(components.size(), 0);
   if (components.size() < 2) return depths;
-  // Without crossings a component lies inside of another one with all its points or with none.
-  Points samples(static_cast<Eigen::Index>(components.size()), 3);
+  // Without crossings a component lies inside of another one with all its points or with none, and
+  // then its box does, too.
+  std::vector<Eigen::AlignedBox3d> boxes(components.size());
   for (std::size_t c = 0; c < components.size(); ++c) {
-    samples.row(static_cast<Eigen::Index>(c)) = vertices.row(components[c](0, 0));
+    for (Eigen::Index i = 0; i < components[c].size(); ++i) {
+      boxes[c].extend(Vec3(vertices.row(components[c].data()[i]).transpose()));
+    }
   }
   for (std::size_t c = 0; c < components.size(); ++c) {
-    const Submesh part = submesh(vertices, components[c]);
-    const std::vector<bool> inside = insideOf(samples, part.mesh.vertices, part.mesh.faces);
+    std::vector<std::size_t> candidates;
     for (std::size_t other = 0; other < components.size(); ++other) {
-      if (other != c && inside[other]) ++depths[other];
+      if (other != c && boxes[c].contains(boxes[other])) candidates.push_back(other);
+    }
+    if (candidates.empty()) continue;
+    Faces outward = components[c];
+    const Eigen::RowVector3d origin = vertices.row(outward(0, 0));
+    if (moments(vertices.rowwise() - origin, outward)[0] < 0.0) {
+      outward.col(1).swap(outward.col(2));
+    }
+    const TriangleTree tree(vertices, outward);
+    for (const std::size_t other : candidates) {
+      if (isInside(vertices, components[other], vertices, outward, tree)) ++depths[other];
     }
   }
   return depths;

@@ -10,6 +10,10 @@ namespace massprops {
 /// One closed component: rows of the mesh's faces, still indexing the mesh's vertices.
 using Components = std::vector<Faces>;
 
+/// For every vertex the number of its component, by the order of their first faces; −1 for a vertex
+/// that no face uses.
+std::vector<int> componentNumbers(Eigen::Index vertexCount, const Faces& faces);
+
 /// The faces of each connected component, in the order of their first face.
 Components connectedComponents(Eigen::Index vertexCount, const Faces& faces);
 

@@ -1,5 +1,7 @@
 #include "core/graph.h"
 
+#include "core/half_edges.h"
+
 #include <algorithm>
 #include <functional>
 #include <queue>
@@ -8,31 +10,45 @@
 namespace massprops {
 
 Neighbours vertexNeighbours(Eigen::Index vertexCount, const Faces& faces) {
-  Neighbours neighbours(static_cast<std::size_t>(vertexCount));
-  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      const int from = faces(f, k);
-      const int to = faces(f, (k + 1) % 3);
-      neighbours[static_cast<std::size_t>(from)].push_back(to);
-      neighbours[static_cast<std::size_t>(to)].push_back(from);
+  const VertexCorners corners = vertexCorners(vertexCount, faces);
+  const int* corner = faces.data();
+  Neighbours result;
+  result.begin_.assign(1, 0);
+  result.begin_.reserve(static_cast<std::size_t>(vertexCount) + 1);
+  result.all_.reserve(static_cast<std::size_t>(faces.size()));
+  std::vector<int> list;
+  for (Eigen::Index v = 0; v < vertexCount; ++v) {
+    list.clear();
+    for (const int c : corners.at(v)) {
+      list.push_back(corner[nextHalfEdge(c)]);
+      list.push_back(corner[previousHalfEdge(c)]);
     }
-  }
-  for (std::vector<int>& list : neighbours) {
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
+    result.all_.insert(result.all_.end(), list.begin(), list.end());
+    result.begin_.push_back(static_cast<int>(result.all_.size()));
   }
-  return neighbours;
+  return result;
 }
 
 Vector lipschitzBelow(const Points& vertices, const Neighbours& neighbours, const Vector& values,
                       double slope) {
-  // Dijkstra's algorithm with every vertex a source of its own value.
+  // Dijkstra's algorithm with every vertex a source of its own value; it starts from those that
+  // limit a neighbour, most often few.
   Vector result = values;
   using Entry = std::pair<double, int>;
   std::vector<Entry> start;
-  start.reserve(static_cast<std::size_t>(values.size()));
-  for (Eigen::Index v = 0; v < values.size(); ++v)
-    start.emplace_back(values[v], static_cast<int>(v));
+  const auto limitOf = [&](Eigen::Index v, int w) {
+    return result[v] + slope * (vertices.row(v) - vertices.row(w)).norm();
+  };
+  for (Eigen::Index v = 0; v < values.size(); ++v) {
+    for (const int w : neighbours[static_cast<std::size_t>(v)]) {
+      if (limitOf(v, w) < values[w]) {
+        start.emplace_back(values[v], static_cast<int>(v));
+        break;
+      }
+    }
+  }
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue(std::greater<>{},
                                                                        std::move(start));
   while (!queue.empty()) {
@@ -40,7 +56,7 @@ Vector lipschitzBelow(const Points& vertices, const Neighbours& neighbours, cons
     queue.pop();
     if (value > result[v]) continue;
     for (const int w : neighbours[static_cast<std::size_t>(v)]) {
-      const double reached = value + slope * (vertices.row(v) - vertices.row(w)).norm();
+      const double reached = limitOf(v, w);
       if (reached < result[w]) {
         result[w] = reached;
         queue.emplace(reached, w);

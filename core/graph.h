@@ -8,7 +8,25 @@
 namespace massprops {
 
 /// For every vertex its neighbours, ascending.
-using Neighbours = std::vector<std::vector<int>>;
+class Neighbours {
+public:
+  struct Range {
+    const int* first;
+    const int* last;
+    const int* begin() const { return first; }
+    const int* end() const { return last; }
+    std::size_t size() const { return static_cast<std::size_t>(last - first); }
+  };
+  std::size_t size() const { return begin_.size() - 1; }
+  Range operator[](std::size_t v) const {
+    return {all_.data() + begin_[v], all_.data() + begin_[v + 1]};
+  }
+
+private:
+  friend Neighbours vertexNeighbours(Eigen::Index vertexCount, const Faces& faces);
+  std::vector<int> begin_; ///< of every vertex in `all_`, and the end
+  std::vector<int> all_;
+};
 
 Neighbours vertexNeighbours(Eigen::Index vertexCount, const Faces& faces);
 

@@ -5,49 +5,70 @@
 #include "core/spatial.h"
 #include "core/validity.h"
 
-#include <set>
+#include <algorithm>
+#include <initializer_list>
 
 namespace massprops {
 namespace {
 
 constexpr double kWallTolerance = 0.005;
 
+/// The vertices of these faces, ascending.
+std::vector<int> verticesOf(const Faces& faces,
+                            std::initializer_list<const std::vector<int>*> lists) {
+  std::vector<int> vertices;
+  for (const std::vector<int>* list : lists) {
+    for (const int f : *list) {
+      for (const int v : faces.row(f)) vertices.push_back(v);
+    }
+  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
 } // namespace
 
 Inspection inspect(const Points& inner, const Faces& innerFaces, const Points& outer,
-                   const Faces& outerFaces, double wall, bool outerMoved) {
+                   const Faces& outerFaces, double wall, bool outerMoved, bool foldsFirst) {
   Inspection inspection;
-  std::set<int> crossing;
-  for (const int f : crossingFaces(inner, innerFaces, outer, outerFaces)) {
-    for (const int v : innerFaces.row(f)) crossing.insert(v);
-  }
+  // Caps and gaps disturb the order.
+  const TriangleTree::Order innerOrder = innerFaces.rows() == outerFaces.rows()
+                                             ? TriangleTree::Order::Spatial
+                                             : TriangleTree::Order::Any;
+  const std::vector<int> folded = selfIntersectingFaces(inner, innerFaces, innerOrder);
+  const std::vector<int> flat = facesWithoutArea(inner, innerFaces);
+  inspection.crossing = verticesOf(innerFaces, {&folded, &flat});
+  if (foldsFirst && !inspection.crossing.empty()) return inspection;
 
+  const TriangleTree outerTree(outer, outerFaces, TriangleTree::Order::Spatial);
+  Clearance clearance = clearanceOf(inner, innerFaces, outerTree, wall);
+  inspection.crossing = verticesOf(innerFaces, {&clearance.crossing, &folded, &flat});
   if (outerMoved) {
-    std::set<int> folded;
-    for (const int f : selfIntersectingFaces(outer, outerFaces)) {
-      for (const int v : outerFaces.row(f)) folded.insert(v);
-    }
-    inspection.outerCrossing.assign(folded.begin(), folded.end());
+    const std::vector<int> outerFolds =
+        selfIntersectingFaces(outer, outerFaces, TriangleTree::Order::Spatial);
+    inspection.outerCrossing = verticesOf(outerFaces, {&outerFolds});
   }
 
   const Components components = connectedComponents(inner.rows(), innerFaces);
   inspection.components = static_cast<int>(components.size());
   const std::vector<int> depths = nestingDepths(inner, components);
-  Points samples(static_cast<Eigen::Index>(components.size()), 3);
   for (std::size_t c = 0; c < components.size(); ++c) {
-    samples.row(static_cast<Eigen::Index>(c)) = inner.row(components[c](0, 0));
+    // What crosses the outer surface is told above; else all of a component is inside, or nothing.
+    const bool inside = isInside(inner, components[c], outer, outerFaces, outerTree);
+    const bool outward =
+        moments(inner.rowwise() - inner.row(components[c](0, 0)), components[c])[0] > 0.0;
+    if (inside && outward && depths[c] == 0) continue;
+    inspection.crossing.insert(inspection.crossing.end(), components[c].data(),
+                               components[c].data() + components[c].size());
   }
-  const std::vector<bool> inside = insideOf(samples, outer, outerFaces);
-  for (std::size_t c = 0; c < components.size(); ++c) {
-    const Points centred = inner.rowwise() - samples.row(static_cast<Eigen::Index>(c));
-    const bool outward = moments(centred, components[c])[0] > 0.0;
-    if (inside[c] && outward && depths[c] == 0) continue;
-    crossing.insert(components[c].data(), components[c].data() + components[c].size());
-  }
-  inspection.crossing.assign(crossing.begin(), crossing.end());
+  std::sort(inspection.crossing.begin(), inspection.crossing.end());
+  inspection.crossing.erase(std::unique(inspection.crossing.begin(), inspection.crossing.end()),
+                            inspection.crossing.end());
 
-  inspection.wall = surfaceDistances(inner, innerFaces, outer, outerFaces, wall);
-  inspection.leastWall = inspection.wall.minCoeff();
+  inspection.wall = std::move(clearance.distance);
+  inspection.leastWall = clearance.least;
+  inspection.nearestFace = std::move(clearance.nearestFace);
   for (Eigen::Index v = 0; v < inspection.wall.size(); ++v) {
     if (inspection.wall[v] < (1.0 - kWallTolerance) * wall) {
       inspection.thin.push_back(static_cast<int>(v));

@@ -8,7 +8,7 @@
 namespace massprops {
 
 struct Inspection {
-  /// Distance from the outer surface, see `surfaceDistances`; n entries.
+  /// Distance from the outer surface, see `Clearance`; n entries.
   Vector wall;
   double leastWall = 0.0; ///< infinity when there is no cavity
   /// Vertices of faces that cross another face, or of a component that is not inside of the outer
@@ -18,15 +18,20 @@ struct Inspection {
   std::vector<int> outerCrossing;
   /// Vertices whose wall is too thin by more than 0.5 %, ascending.
   std::vector<int> thin;
+  /// The outer face next to each vertex; −1 for a vertex without a face.
+  std::vector<int> nearestFace;
   int components = 0;
 
   bool isClean() const { return crossing.empty() && outerCrossing.empty() && thin.empty(); }
 };
 
-/// Exact predicates for crossings and containment, double precision for distances.
-/// `inner`, `outer`: vertex positions (inner ones outward oriented as a body of its own);
-/// `wall`: wanted distance, same unit. `outerMoved`: whether the outer surface may cross itself.
+/// Exact predicates for crossings and containment, double precision for distances: surfaces that
+/// are a wall apart do not cross.
+/// `inner`, `outer`: vertex positions (inner ones outward oriented as a body of its own), the outer
+/// faces in the order of `spatialOrder`. `wall`: wanted distance, same unit. `outerMoved`: whether
+/// the outer surface may cross itself. `foldsFirst`: where the cavity crosses itself, tell that
+/// alone and measure nothing.
 Inspection inspect(const Points& inner, const Faces& innerFaces, const Points& outer,
-                   const Faces& outerFaces, double wall, bool outerMoved);
+                   const Faces& outerFaces, double wall, bool outerMoved, bool foldsFirst = false);
 
 } // namespace massprops

@@ -1,7 +1,7 @@
 #include "core/limit.h"
 
 #include "core/objective.h"
-#include "core/spatial.h"
+#include "core/triangle_tree.h"
 #include "core/validity.h"
 
 #include <Eigen/Eigenvalues>
@@ -34,19 +34,17 @@ public:
   RegionSampler(const Points& vertices, const Faces& faces, double wall, double edge)
       : surface_(vertices, faces), wall_(wall), edge_(edge) {}
 
-  void add(const Vec3& centre) {
-    visit(centre, kTop, kUnknown, kUnknown, surface_.nearest(centre));
-  }
+  void add(const Vec3& centre) { visit(centre, kTop, kUnknown, kUnknown, -1); }
 
   static constexpr int kTop = 4;
   double topEdge() const { return edge_ * (1 << (kTop - 1)); }
 
-  AdmissibleCells cells(const Points& vertices, const Faces& faces) const {
+  AdmissibleCells cells(const TriangleMesh& sides) const {
     Points samples(static_cast<Eigen::Index>(samples_.size()), 3);
     for (std::size_t i = 0; i < samples_.size(); ++i) {
       samples.row(static_cast<Eigen::Index>(i)) = samples_[i].transpose();
     }
-    const std::vector<bool> inside = insideOf(samples, vertices, faces);
+    const std::vector<bool> inside = insideOf(samples, sides.vertices, sides.faces);
 
     std::vector<Moments> result;
     int cell = kUnknown;
@@ -91,30 +89,31 @@ private:
     int sample; ///< the point that is on the same side of the surface
   };
 
-  void visit(const Vec3& centre, int level, int cell, int sample,
-             const SurfaceIndex::Nearest& hint) {
-    const SurfaceIndex::Nearest nearest = surface_.nearest(centre, hint);
+  void visit(const Vec3& centre, int level, int cell, int sample, int hintFace) {
+    const TriangleTree::Hit nearest =
+        surface_.nearest(centre, std::numeric_limits<double>::infinity(), hintFace);
+    const double distance = std::sqrt(nearest.squaredDistance);
     const double size = edge_ * std::ldexp(1.0, level - 1);
     const double half = 0.5 * std::sqrt(3.0) * size;
-    if (nearest.distance <= wall_ - half) return;
-    if (sample == kUnknown && (nearest.distance > half || level == 0)) {
+    if (distance <= wall_ - half) return;
+    if (sample == kUnknown && (distance > half || level == 0)) {
       sample = static_cast<int>(samples_.size());
       samples_.push_back(centre);
     }
-    if (level == 0 || nearest.distance >= wall_ + half) {
-      const Vec3 away = (centre - nearest.point) / std::max(nearest.distance, 1e-300);
-      parts_.push_back({centre, nearest.distance, away, level, cell, sample});
+    if (level == 0 || distance >= wall_ + half) {
+      const Vec3 away = (centre - nearest.point) / std::max(distance, 1e-300);
+      parts_.push_back({centre, distance, away, level, cell, sample});
       return;
     }
     if (level == 1) cell = borderCells_++;
     for (int corner = 0; corner < 8; ++corner) {
       const Vec3 step((corner & 1) != 0 ? 0.25 : -0.25, (corner & 2) != 0 ? 0.25 : -0.25,
                       (corner & 4) != 0 ? 0.25 : -0.25);
-      visit(centre + size * step, level - 1, cell, sample, nearest);
+      visit(centre + size * step, level - 1, cell, sample, nearest.face);
     }
   }
 
-  SurfaceIndex surface_;
+  TriangleTree surface_;
   double wall_;
   double edge_;
   std::vector<Part> parts_;
@@ -142,8 +141,8 @@ Share sharpShare(double t) {
 
 } // namespace
 
-AdmissibleCells admissibleCells(const Points& vertices, const Faces& faces, double wall,
-                                int cells) {
+AdmissibleCells admissibleCells(const Points& vertices, const Faces& faces,
+                                const TriangleMesh& sides, double wall, int cells) {
   const Vec3 low = vertices.colwise().minCoeff();
   const Vec3 high = vertices.colwise().maxCoeff();
   RegionSampler sampler(vertices, faces, wall, std::cbrt((high - low).prod() / cells));
@@ -155,7 +154,7 @@ AdmissibleCells admissibleCells(const Points& vertices, const Faces& faces, doub
       }
     }
   }
-  return sampler.cells(vertices, faces);
+  return sampler.cells(sides);
 }
 
 Limit limitOf(const Goal& goal, const Weights& weights, const Moments& solid, double fillDensity,
@@ -187,8 +186,8 @@ Limit limitOf(const Goal& goal, const Weights& weights, const Moments& solid, do
       }
     }
     limit.massMoments = solid + (fillDensity - 1.0) * cavity;
-    return evaluateMoments(goal, weights, limit.massMoments, (fillDensity - 1.0) * jacobian,
-                           1.0 - cavity[0] / solid[0], -jacobian.row(0).transpose() / solid[0]);
+    return evaluateBody(goal, weights, limit.massMoments, (fillDensity - 1.0) * jacobian,
+                        1.0 - cavity[0] / solid[0], -jacobian.row(0).transpose() / solid[0]);
   };
 
   // Half of every cell, almost nothing, almost everything: for several goals there is more than one

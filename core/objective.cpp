@@ -9,9 +9,9 @@ double momentObjective(const Goal& goal, const Weights& weights, const Moments& 
                                 goal.inequalities(massMoments).values.cwiseMax(0.0).squaredNorm());
 }
 
-Evaluation evaluateMoments(const Goal& goal, const Weights& weights, const Moments& massMoments,
-                           const MomentJacobian& massJacobian, double volumeShare,
-                           const Vector& volumeShareGradient) {
+Evaluation evaluateBody(const Goal& goal, const Weights& weights, const Moments& massMoments,
+                        const MomentJacobian& massJacobian, double volumeShare,
+                        const Vector& volumeShareGradient) {
   Evaluation e;
   const GoalValue value = goal.objective(massMoments);
   e.objective = value.value + weights.volume * volumeShare;

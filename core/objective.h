@@ -16,8 +16,8 @@ double momentObjective(const Goal& goal, const Weights& weights, const Moments& 
 
 /// The same with its derivatives by x variables, and the goal's constraints unless weight 5 is 0,
 /// which leaves them out altogether. `volumeShareGradient`: x entries.
-Evaluation evaluateMoments(const Goal& goal, const Weights& weights, const Moments& massMoments,
-                           const MomentJacobian& massJacobian, double volumeShare,
-                           const Vector& volumeShareGradient);
+Evaluation evaluateBody(const Goal& goal, const Weights& weights, const Moments& massMoments,
+                        const MomentJacobian& massJacobian, double volumeShare,
+                        const Vector& volumeShareGradient);
 
 } // namespace massprops

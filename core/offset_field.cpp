@@ -1,6 +1,8 @@
 #include "core/offset_field.h"
 
 #include "core/graph.h"
+#include "core/half_edges.h"
+#include "core/parallel.h"
 #include "core/spatial.h"
 
 #include <Eigen/SparseCholesky>
@@ -19,17 +21,6 @@ constexpr double kWantedClearance = 0.3;
 constexpr double kShareOfChord = 0.5;
 constexpr double kReachSlope = 1.0;
 
-Points smoothed(const Points& values, const SparseMatrix& L, const Vector& mass, double length) {
-  SparseMatrix system = length * length * L;
-  system.diagonal() += mass;
-  const Eigen::SimplicialLDLT<SparseMatrix> solver(system);
-  if (solver.info() != Eigen::Success) {
-    throw std::runtime_error("the skeleton cannot be smoothed over this mesh: use Remeshing > "
-                             "Isotropic Explicit Remeshing, then run again");
-  }
-  return solver.solve(mass.asDiagonal() * values);
-}
-
 Points unitFaceNormals(const Points& vertices, const Faces& faces) {
   Points normals(faces.rows(), 3);
   for (Eigen::Index f = 0; f < faces.rows(); ++f) {
@@ -41,17 +32,8 @@ Points unitFaceNormals(const Points& vertices, const Faces& faces) {
   return normals;
 }
 
+/// The faces around a vertex.
 using FaceFan = std::vector<int>;
-
-std::vector<FaceFan> facesAroundVertices(Eigen::Index vertexCount, const Faces& faces) {
-  std::vector<FaceFan> fans(static_cast<std::size_t>(vertexCount));
-  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      fans[static_cast<std::size_t>(faces(f, k))].push_back(static_cast<int>(f));
-    }
-  }
-  return fans;
-}
 
 double clearanceOf(const Vec3& direction, const FaceFan& fan, const Points& normals) {
   double least = 1.0;
@@ -101,37 +83,55 @@ Vec3 turnedIntoCone(const Vec3& direction, const Vec3& target, double wanted, co
 
 } // namespace
 
-OffsetField offsetField(const Points& vertices, const Faces& faces, const Points& skeleton,
-                        const SparseMatrix& L, const Vector& mass, double diffusionLength) {
-  const Points axis = smoothed(skeleton, L, mass, diffusionLength);
-  const Points normals = unitFaceNormals(vertices, faces);
-  const std::vector<FaceFan> fans = facesAroundVertices(vertices.rows(), faces);
+Points smoothedOverSurface(const Points& values, const SparseMatrix& L, const Vector& mass,
+                           double length) {
+  SparseMatrix system = length * length * L;
+  system.diagonal() += mass;
+  const Eigen::SimplicialLDLT<SparseMatrix> solver(system);
+  if (solver.info() != Eigen::Success) {
+    throw std::runtime_error("the skeleton cannot be smoothed over this mesh: use Remeshing > "
+                             "Isotropic Explicit Remeshing, then run again");
+  }
+  return solver.solve(mass.asDiagonal() * values);
+}
 
+OffsetField offsetField(const Points& vertices, const Faces& faces, const Points& axis) {
+  const Points normals = unitFaceNormals(vertices, faces);
+  const VertexCorners corners = vertexCorners(vertices.rows(), faces);
   OffsetField field;
   field.directions.resize(vertices.rows(), 3);
   field.reach.resize(vertices.rows());
   field.clearance.resize(vertices.rows());
-  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
-    const FaceFan& fan = fans[static_cast<std::size_t>(v)];
-    const Vec3 outward = (vertices.row(v) - axis.row(v)).transpose();
-    Vec3 direction = outward.stableNormalized();
-    double clearance = clearanceOf(direction, fan, normals);
-    if (!(clearance >= kWantedClearance)) {
-      const Vec3 target = mostNormalDirection(fan, normals);
-      const double attainable = clearanceOf(target, fan, normals);
-      direction =
-          turnedIntoCone(direction, target, std::min(kWantedClearance, attainable), fan, normals);
-      clearance = clearanceOf(direction, fan, normals);
+  constexpr Eigen::Index kChunk = 2048;
+  forChunks(vertices.rows(), kChunk, [&](const Chunk& chunk) {
+    FaceFan fan;
+    for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
+      fan.clear();
+      for (const int corner : corners.at(v)) fan.push_back(corner / 3);
+      const Vec3 outward = (vertices.row(v) - axis.row(v)).transpose();
+      Vec3 direction = outward.stableNormalized();
+      double clearance = clearanceOf(direction, fan, normals);
+      if (!(clearance >= kWantedClearance)) {
+        const Vec3 target = mostNormalDirection(fan, normals);
+        const double attainable = clearanceOf(target, fan, normals);
+        direction =
+            turnedIntoCone(direction, target, std::min(kWantedClearance, attainable), fan, normals);
+        clearance = clearanceOf(direction, fan, normals);
+      }
+      field.directions.row(v) = direction.transpose();
+      field.reach[v] = outward.norm();
+      field.clearance[v] = clearance;
     }
-    field.directions.row(v) = direction.transpose();
-    field.reach[v] = outward.norm();
-    field.clearance[v] = clearance;
-  }
-
-  const Vector chords = SurfaceIndex(vertices, faces).chords(vertices, -field.directions);
+  });
+  const Vector through = chords(TriangleTree(vertices, faces), vertices, -field.directions);
   field.reach = lipschitzBelow(vertices, vertexNeighbours(vertices.rows(), faces),
-                               field.reach.cwiseMin(kShareOfChord * chords), kReachSlope);
+                               field.reach.cwiseMin(kShareOfChord * through), kReachSlope);
   return field;
+}
+
+OffsetField offsetField(const Points& vertices, const Faces& faces, const Points& skeleton,
+                        const SparseMatrix& L, const Vector& mass, double diffusionLength) {
+  return offsetField(vertices, faces, smoothedOverSurface(skeleton, L, mass, diffusionLength));
 }
 
 } // namespace massprops

@@ -25,4 +25,11 @@ struct OffsetField {
 OffsetField offsetField(const Points& vertices, const Faces& faces, const Points& skeleton,
                         const SparseMatrix& L, const Vector& mass, double diffusionLength);
 
+/// Steps 2 and 3, with skeleton points that are smooth already.
+OffsetField offsetField(const Points& vertices, const Faces& faces, const Points& axis);
+
+/// Step 1. `values`: n×3.
+Points smoothedOverSurface(const Points& values, const SparseMatrix& L, const Vector& mass,
+                           double length);
+
 } // namespace massprops

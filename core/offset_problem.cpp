@@ -2,17 +2,41 @@
 
 #include "core/moments.h"
 
+#include <utility>
+
 namespace massprops {
 namespace {
+
+using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Hα at the vertices.
+Vector fieldOf(const OffsetModel& model, const Eigen::Ref<const Vector>& coefficients) {
+  const Vector atBasis = model.basis.functions * coefficients;
+  return model.interpolation != nullptr ? *model.interpolation * atBasis : atBasis;
+}
+
+/// Derivatives by the coefficients of what changes by row i of `rates` per unit of (Hα)_i; k
+/// columns.
+Matrix byCoefficients(const OffsetModel& model, const RowMatrix& rates) {
+  if (model.interpolation == nullptr) return rates.transpose() * model.basis.functions;
+  return model.interpolation->transposeTimes(rates).transpose() * model.basis.functions;
+}
 
 /// d(moments)/d(coefficients) of a surface whose vertex i moves by sign·φ'_i per unit of (Hα)_i.
 MomentJacobian jacobian(const OffsetModel& model, const MomentRates& rates, const Vector& slopes,
                         double sign, bool usesInertia) {
   const Eigen::Index columns = usesInertia ? 10 : 4;
-  const Matrix weighted = (sign * slopes).asDiagonal() * rates.leftCols(columns);
+  const RowMatrix weighted = (sign * slopes).asDiagonal() * rates.leftCols(columns);
   MomentJacobian result = MomentJacobian::Zero(10, model.basis.functions.cols());
-  result.topRows(columns).noalias() = weighted.transpose() * model.basis.functions;
+  result.topRows(columns) = byCoefficients(model, weighted);
   return result;
+}
+
+CavityMoments momentsOf(const OffsetModel& model, const OffsetSurfaces& surfaces,
+                        bool usesInertia) {
+  return {moments(surfaces.inner, model.innerFaces),
+          jacobian(model, momentRates(surfaces.inner, model.innerFaces, model.directions),
+                   surfaces.innerSlopes, -1.0, usesInertia)};
 }
 
 } // namespace
@@ -20,63 +44,70 @@ MomentJacobian jacobian(const OffsetModel& model, const MomentRates& rates, cons
 OffsetSurfaces offsetSurfaces(const OffsetModel& model, const Vector& coefficients) {
   const Eigen::Index k = model.basis.functions.cols();
   OffsetSurfaces surfaces;
-  BoundedOffsets inner = boundMap(model.inner, model.basis.functions * coefficients.head(k));
+  BoundedOffsets inner = boundMap(model.inner, fieldOf(model, coefficients.head(k)));
   surfaces.innerOffsets = std::move(inner.offsets);
   surfaces.innerSlopes = std::move(inner.slopes);
   surfaces.inner = model.vertices - surfaces.innerOffsets.asDiagonal() * model.directions;
-  surfaces.outer = model.vertices;
   if (model.outer) {
-    BoundedOffsets outer = boundMap(*model.outer, model.basis.functions * coefficients.tail(k));
+    BoundedOffsets outer = boundMap(*model.outer, fieldOf(model, coefficients.tail(k)));
     surfaces.outerOffsets = std::move(outer.offsets);
     surfaces.outerSlopes = std::move(outer.slopes);
-    surfaces.outer += surfaces.outerOffsets.asDiagonal() * model.directions;
+    surfaces.outer = model.vertices + surfaces.outerOffsets.asDiagonal() * model.directions;
   }
   return surfaces;
+}
+
+CavityMoments cavityMoments(const OffsetModel& model, const Vector& coefficients,
+                            bool usesInertia) {
+  return momentsOf(model, offsetSurfaces(model, coefficients), usesInertia);
+}
+
+Evaluation evaluateMoments(const OffsetModel& model, const Goal& goal, const Weights& weights,
+                           const CavityMoments& cavity) {
+  const double solidVolume = model.solidMoments[0];
+  return evaluateBody(
+      goal, weights, shellMoments(model.solidMoments, cavity.value, 1.0, model.fillDensity),
+      (model.fillDensity - 1.0) * cavity.jacobian, (solidVolume - cavity.value[0]) / solidVolume,
+      -cavity.jacobian.row(0).transpose() / solidVolume);
 }
 
 Evaluation evaluate(const OffsetModel& model, const Goal& goal, const Weights& weights,
                     const Vector& coefficients) {
   const Eigen::Index k = model.basis.functions.cols();
   const OffsetSurfaces surfaces = offsetSurfaces(model, coefficients);
-
-  // The ten mass moments and their derivatives by all coefficients.
-  const Moments inner = moments(surfaces.inner, model.innerFaces);
-  const Moments outer = model.outer ? moments(surfaces.outer, model.faces) : model.solidMoments;
-  const double solidVolume = model.solidMoments[0];
-  const Moments mass = shellMoments(outer, inner, 1.0, model.fillDensity);
-  MomentJacobian massJacobian(10, coefficients.size());
-  const MomentJacobian innerJacobian =
-      jacobian(model, momentRates(surfaces.inner, model.innerFaces, model.directions),
-               surfaces.innerSlopes, -1.0, goal.usesInertia());
-  massJacobian.leftCols(k) = (model.fillDensity - 1.0) * innerJacobian;
-  Vector volumeGradient = Vector::Zero(coefficients.size());
-  volumeGradient.head(k) = -innerJacobian.row(0).transpose();
+  const CavityMoments inner = momentsOf(model, surfaces, goal.usesInertia());
+  Evaluation e;
   if (model.outer) {
-    massJacobian.rightCols(k) =
+    const double solidVolume = model.solidMoments[0];
+    const Moments outer = moments(surfaces.outer, model.faces);
+    const MomentJacobian outerJacobian =
         jacobian(model, momentRates(surfaces.outer, model.faces, model.directions),
                  surfaces.outerSlopes, 1.0, goal.usesInertia());
-    volumeGradient.tail(k) = massJacobian.rightCols(k).row(0).transpose();
+    MomentJacobian massJacobian(10, 2 * k);
+    massJacobian << (model.fillDensity - 1.0) * inner.jacobian, outerJacobian;
+    Vector volumeGradient(2 * k);
+    volumeGradient << -inner.jacobian.row(0).transpose(), outerJacobian.row(0).transpose();
+    e = evaluateBody(goal, weights, shellMoments(outer, inner.value, 1.0, model.fillDensity),
+                     massJacobian, (outer[0] - inner.value[0]) / solidVolume,
+                     volumeGradient / solidVolume);
+  } else {
+    e = evaluateMoments(model, goal, weights, inner);
   }
-
-  Evaluation e = evaluateMoments(goal, weights, mass, massJacobian,
-                                 (outer[0] - inner[0]) / solidVolume, volumeGradient / solidVolume);
 
   // Term 4: Dirichlet energy δᵀLδ of the inner offsets.
   if (weights.smoothness != 0.0) {
     const Vector gradient = model.L * surfaces.innerOffsets;
     e.objective += weights.smoothness * surfaces.innerOffsets.dot(gradient);
-    e.objectiveGradient.head(k) +=
-        model.basis.functions.transpose() *
-        (2.0 * weights.smoothness * gradient.cwiseProduct(surfaces.innerSlopes));
+    const Vector rate = 2.0 * weights.smoothness * gradient.cwiseProduct(surfaces.innerSlopes);
+    e.objectiveGradient.head(k) += byCoefficients(model, rate).transpose();
   }
 
   // Term 6: mean squared displacement of the outer surface, Σ M_i ε_i² with ΣM_i = 1.
   if (model.outer && weights.outer != 0.0) {
     const Vector weighted = model.mass.cwiseProduct(surfaces.outerOffsets);
     e.objective += weights.outer * weighted.dot(surfaces.outerOffsets);
-    e.objectiveGradient.tail(k) +=
-        model.basis.functions.transpose() *
-        (2.0 * weights.outer * weighted.cwiseProduct(surfaces.outerSlopes));
+    const Vector rate = 2.0 * weights.outer * weighted.cwiseProduct(surfaces.outerSlopes);
+    e.objectiveGradient.tail(k) += byCoefficients(model, rate).transpose();
   }
   return e;
 }
@@ -85,7 +116,7 @@ double objectiveValue(const Goal& goal, const Weights& weights, const Moments& m
                       double volumeShare, const SparseMatrix& L, const Vector& innerOffsets,
                       const Vector& mass, const Vector& outerOffsets) {
   double value = momentObjective(goal, weights, massMoments, volumeShare);
-  if (innerOffsets.size() > 0) {
+  if (innerOffsets.size() > 0 && weights.smoothness != 0.0) {
     value += weights.smoothness * innerOffsets.dot(L * innerOffsets);
   }
   if (outerOffsets.size() > 0) {
@@ -95,13 +126,15 @@ double objectiveValue(const Goal& goal, const Weights& weights, const Moments& m
 }
 
 Vector coefficientsFor(const OffsetModel& model, const Vector& inner, const Vector& outer) {
-  // HᵀMH = 1, so the M-orthogonal projection is HᵀM.
+  // HᵀMH = 1, so the M-orthogonal projection is HᵀM; on a proxy M is what it stands for.
   const Eigen::Index k = model.basis.functions.cols();
   Vector coefficients(model.outer ? 2 * k : k);
-  coefficients.head(k) = model.basis.functions.transpose() * model.mass.cwiseProduct(inner);
-  if (model.outer) {
-    coefficients.tail(k) = model.basis.functions.transpose() * model.mass.cwiseProduct(outer);
-  }
+  const auto project = [&](const Vector& field) {
+    const Vector weighted = model.mass.cwiseProduct(field);
+    return Vector(byCoefficients(model, weighted).transpose());
+  };
+  coefficients.head(k) = project(inner);
+  if (model.outer) coefficients.tail(k) = project(outer);
   return coefficients;
 }
 

@@ -4,6 +4,7 @@
 #include "core/bounds.h"
 #include "core/harmonics.h"
 #include "core/objective.h"
+#include "core/proxy.h"
 
 #include <optional>
 
@@ -14,25 +15,40 @@ struct OffsetModel {
   const Points& vertices;     ///< n×3, of the input surface
   const Faces& faces;         ///< of the outer surface
   const Points& directions;   ///< n×3, unit, outwards
-  const HarmonicBasis& basis; ///< n×k
-  const SparseMatrix& L;      ///< n×n cotangent Laplacian
+  const HarmonicBasis& basis; ///< n×k, or p×k on a proxy
+  const SparseMatrix& L;      ///< n×n cotangent Laplacian; needed where smoothness has a weight
   const Vector& mass;         ///< n lumped masses of total 1
   OffsetBounds inner;
   std::optional<OffsetBounds> outer; ///< empty: the outer surface stays
   Faces innerFaces;                  ///< of the cavity, outward, over the same vertices
   double fillDensity = 0.0;          ///< as a multiple of the material's density
   Moments solidMoments;              ///< of the input surface
+  /// From the proxy that the basis lives on to the vertices; null where it lives on these.
+  const Interpolation* interpolation = nullptr;
 };
 
 /// The two surfaces that a set of coefficients stands for.
 struct OffsetSurfaces {
-  Points inner, outer;              ///< n×3
+  Points inner, outer;              ///< n×3; the latter empty when the outer surface stays
   Vector innerOffsets, innerSlopes; ///< δ = φ(Hα) and φ'
   Vector outerOffsets, outerSlopes; ///< ε = φ(Hβ) and φ'; empty when the outer surface stays
 };
 
 /// `coefficients`: α (k), followed by β (k) when the outer surface moves.
 OffsetSurfaces offsetSurfaces(const OffsetModel& model, const Vector& coefficients);
+
+/// The cavity's moments and their derivatives by α.
+struct CavityMoments {
+  Moments value;
+  MomentJacobian jacobian;
+};
+/// `usesInertia`: if not, the derivatives of the second moments are 0.
+CavityMoments cavityMoments(const OffsetModel& model, const Vector& coefficients, bool usesInertia);
+
+/// Objective and constraints of the cavity with these moments, terms 1–3 and 5 only.
+/// \pre the outer surface stays
+Evaluation evaluateMoments(const OffsetModel& model, const Goal& goal, const Weights& weights,
+                           const CavityMoments& cavity);
 
 /// Objective terms 1–6 and the goal's constraints at `coefficients`; docs/math.md "Objective".
 Evaluation evaluate(const OffsetModel& model, const Goal& goal, const Weights& weights,

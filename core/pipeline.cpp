@@ -7,6 +7,8 @@
 #include "core/laplacian.h"
 #include "core/limit.h"
 #include "core/offset_field.h"
+#include "core/parallel.h"
+#include "core/proxy.h"
 #include "core/skeleton.h"
 #include "core/solid.h"
 #include "core/stopwatch.h"
@@ -14,13 +16,22 @@
 
 #include <algorithm>
 #include <functional>
-#include <future>
 
 namespace massprops {
 namespace {
 
 /// Of the diagonal: smooths the noise of the skeleton's correspondence and keeps its shape.
 constexpr double kDiffusionLength = 0.02;
+
+/// Vertices of the proxy. With fewer, the skeleton of models with thin limbs costs more than 2 % of
+/// what hollowing gains.
+Eigen::Index proxySize(Eigen::Index vertexCount) {
+  constexpr double kShare = 0.46;
+  constexpr double kLeast = 2000.0;
+  constexpr double kMost = 5000.0;
+  return static_cast<Eigen::Index>(
+      std::clamp(kShare * static_cast<double>(vertexCount), kLeast, kMost));
+}
 
 /// The outer surface keeps the point that the body hangs from.
 void holdTop(const Points& vertices, OffsetBounds& bounds) {
@@ -73,48 +84,58 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   requireSensible(options, solid.vertices().rows(), solid.diagonal());
   const Workpiece piece = makeWorkpiece(solid, options);
 
-  // The basis does not need the skeleton: both cores work.
+  // Skeleton and basis are smooth: a coarse copy of the surface carries them. The basis does not
+  // need the skeleton: both cores work.
   tell(2, "Mean curvature skeleton and harmonic basis");
-  const SparseMatrix L = cotanLaplacian(piece.vertices, piece.faces);
+  const Proxy proxy = makeProxy(piece.vertices, piece.faces, proxySize(piece.vertices.rows()));
+  const TriangleMesh& coarse = proxy.mesh;
   const Vector area = vertexLumpedMass(piece.vertices, piece.faces);
   const Vector mass = area / area.sum();
-  std::future<HarmonicBasis> pendingBasis = std::async(std::launch::async, [&] {
-    const Stopwatch time;
-    HarmonicBasis result = harmonicBasis(piece.vertices, piece.faces, L, mass, options.basisSize);
-    stages.secondsBasis = time.seconds();
-    return result;
-  });
+  const SparseMatrix coarseL = cotanLaplacian(coarse.vertices, coarse.faces);
+  const Vector coarseArea = proxy.interpolation.transposeTimes(area);
   const Moments solidMoments = moments(piece.vertices, piece.faces);
   const std::unique_ptr<Goal> goal = makeGoal(options, piece, piece.vertices);
-  const double fillDensity = fillingSeenBy(options);
-  const auto limit = [&]() -> std::optional<Limit> {
-    if (options.outerUpperBound > 0.0) return {};
-    const Stopwatch time;
-    const AdmissibleCells cells = admissibleCells(piece.vertices, piece.faces, piece.wall);
-    if (cells.rows() == 0) return {};
-    const Limit result = limitOf(*goal, options.weights, solidMoments, fillDensity, cells);
-    stages.secondsLimit = time.seconds();
-    return result;
-  };
-  const Stopwatch skeletonTime;
-  const Skeleton skeleton = meanCurvatureSkeleton(piece.vertices, piece.faces);
-  stages.secondsSkeleton = skeletonTime.seconds();
+  Skeleton skeleton;
+  HarmonicBasis basis;
+  std::optional<Limit> limit;
+  inParallel(
+      [&] {
+        const Stopwatch time;
+        skeleton = meanCurvatureSkeleton(coarse.vertices, coarse.faces);
+        stages.secondsSkeleton = time.seconds();
+      },
+      [&] {
+        const Stopwatch time;
+        basis = harmonicBasis(coarse.vertices, coarse.faces, coarseL, coarseArea / coarseArea.sum(),
+                              options.basisSize);
+        stages.secondsBasis = time.seconds();
+        if (options.outerUpperBound > 0.0) return;
+        const Stopwatch limitTime;
+        const AdmissibleCells cells =
+            admissibleCells(piece.vertices, piece.faces, coarse, piece.wall);
+        if (cells.rows() == 0) return;
+        limit = limitOf(*goal, options.weights, solidMoments, fillingSeenBy(options), cells);
+        stages.secondsLimit = limitTime.seconds();
+      });
   stages.skeletonFailures = skeleton.failedComponents;
   stages.repairs = solid.repairs().describe();
-  const HarmonicBasis basis = pendingBasis.get();
 
   tell(65, "Offset directions");
-  const OffsetField field =
-      offsetField(piece.vertices, piece.faces, skeleton.points, L, area, kDiffusionLength);
+  const Points axis = smoothedOverSurface(skeleton.points, coarseL, coarseArea, kDiffusionLength);
+  const OffsetField field = offsetField(piece.vertices, piece.faces, proxy.interpolation * axis);
 
   tell(70, "Optimization");
   const auto representable = [&](const Points& points) {
     return options.representable ? options.representable(points) : points;
   };
+  const SparseMatrix L = options.weights.smoothness > 0.0
+                             ? cotanLaplacian(piece.vertices, piece.faces)
+                             : SparseMatrix();
   CavityTask task{piece.vertices, piece.faces, field, basis, L, mass, *goal, options.weights};
+  if (!proxy.interpolation.isIdentity()) task.proxy = &proxy;
   task.solidMoments = solidMoments;
-  task.fillDensity = fillDensity;
-  task.limit = limit();
+  task.fillDensity = fillingSeenBy(options);
+  task.limit = limit;
   task.wall = piece.wall;
   task.inputMoments = solidMoments + moments(piece.cavities.vertices, piece.cavities.faces);
   const auto boundsFor = [&](double wall) {
@@ -151,12 +172,15 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   tell(95, "Report");
   Result result;
   if (cavity.status == CavityStatus::Found) {
-    Submesh inner = submesh(representable(toModel(piece.frame, cavity.inner)), cavity.cavity.faces);
+    Submesh inner = submesh(representable(toModel(piece.frame, inSolidOrder(piece, cavity.inner))),
+                            inSolidOrder(piece, cavity.cavity.faces));
     result.inner = std::move(inner.mesh);
     result.inner.faces.col(1).swap(result.inner.faces.col(2));
-    result.innerWall = cavity.inspection.wall(inner.vertexOf) * piece.frame.length;
+    result.innerWall =
+        inSolidOrder(piece, cavity.inspection.wall)(inner.vertexOf) * piece.frame.length;
     if (task.outer || piece.cavities.faces.rows() > 0) {
-      result.outer = TriangleMesh{representable(toModel(piece.frame, cavity.outer)), piece.faces};
+      result.outer = TriangleMesh{
+          representable(toModel(piece.frame, inSolidOrder(piece, cavity.outer))), solid.faces()};
     }
   }
   // A verdict may depend on the outer surface as it has become.

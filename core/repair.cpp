@@ -1,6 +1,8 @@
 #include "core/repair.h"
 
 #include "core/components.h"
+#include "core/half_edges.h"
+#include "core/validity.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
@@ -9,8 +11,8 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <numeric>
+#include <tuple>
 #include <vector>
 
 namespace massprops {
@@ -19,14 +21,10 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
-bool isOpen(const Faces& faces) {
-  std::map<std::pair<int, int>, int> uses;
-  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      ++uses[std::minmax(faces(f, k), faces(f, (k + 1) % 3))];
-    }
-  }
-  return std::any_of(uses.begin(), uses.end(), [](const auto& use) { return use.second == 1; });
+bool isOpen(Eigen::Index vertexCount, const Faces& faces) {
+  const std::vector<EdgeUse> uses = edgeUses(vertexCount, faces);
+  return std::any_of(uses.begin(), uses.end(),
+                     [](const EdgeUse& use) { return use.forward + use.backward == 1; });
 }
 
 /// Every vertex becomes the first one with the same coordinates. Returns how many changed.
@@ -69,34 +67,43 @@ int removeFacesWithACornerTwice(Faces& faces) {
 }
 
 /// Of faces with the same corners one stays; two that lie back to back bound nothing and both go.
-int removeDuplicates(Faces& faces) {
-  struct Copies {
-    int forward = 0;
-    int backward = 0;
-    bool taken = false;
+int removeDuplicates(Eigen::Index vertexCount, Faces& faces) {
+  struct Corners {
+    int middle, largest; ///< in ascending order after the smallest
+    bool backward;
+    int face;
   };
-  const auto sorted = [&](Eigen::Index f) {
-    std::array<int, 3> corners{faces(f, 0), faces(f, 1), faces(f, 2)};
-    std::sort(corners.begin(), corners.end());
-    return corners;
-  };
-  const auto isForward = [&](Eigen::Index f) {
-    const std::array<int, 3> corners = sorted(f);
-    for (int k = 0; k < 3; ++k) {
-      if (faces(f, k) == corners[0]) return faces(f, (k + 1) % 3) == corners[1];
+  const VertexCorners at = vertexCorners(vertexCount, faces);
+  std::vector<char> remove(static_cast<std::size_t>(faces.rows()), 0);
+  std::vector<Corners> same;
+  for (Eigen::Index v = 0; v < vertexCount; ++v) {
+    same.clear();
+    for (const int c : at.at(v)) {
+      const int next = faces.data()[nextHalfEdge(c)];
+      const int previous = faces.data()[previousHalfEdge(c)];
+      if (next < v || previous < v) continue;
+      same.push_back({std::min(next, previous), std::max(next, previous), previous < next, c / 3});
     }
-    return false;
-  };
-  std::map<std::array<int, 3>, Copies> copies;
-  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
-    Copies& c = copies[sorted(f)];
-    ++(isForward(f) ? c.forward : c.backward);
+    std::sort(same.begin(), same.end(), [](const Corners& a, const Corners& b) {
+      return std::tie(a.middle, a.largest, a.face) < std::tie(b.middle, b.largest, b.face);
+    });
+    for (std::size_t i = 0; i < same.size();) {
+      std::size_t end = i;
+      bool hasForward = false;
+      bool hasBackward = false;
+      for (; end < same.size() && same[end].middle == same[i].middle &&
+             same[end].largest == same[i].largest;
+           ++end) {
+        (same[end].backward ? hasBackward : hasForward) = true;
+      }
+      for (std::size_t j = i; j < end; ++j) {
+        const bool goes = j > i || (hasForward && hasBackward);
+        remove[static_cast<std::size_t>(same[j].face)] = goes ? 1 : 0;
+      }
+      i = end;
+    }
   }
-  return keepFaces(faces, [&](Eigen::Index f) {
-    Copies& c = copies[sorted(f)];
-    if (c.forward > 0 && c.backward > 0) return false;
-    return !std::exchange(c.taken, true);
-  });
+  return keepFaces(faces, [&](Eigen::Index f) { return remove[static_cast<std::size_t>(f)] == 0; });
 }
 
 void append(std::string& text, int count, const char* singular, const char* plural,
@@ -124,11 +131,11 @@ RepairedMesh mergedAndCompacted(const TriangleMesh& mesh) {
   Faces& faces = result.mesh.faces;
   Repairs& repairs = result.repairs;
   repairs.zeroAreaFaces += removeFacesWithACornerTwice(faces);
-  if (isOpen(faces)) {
+  if (isOpen(result.mesh.vertices.rows(), faces)) {
     repairs.mergedVertices = mergeCoincident(result.mesh);
     repairs.zeroAreaFaces += removeFacesWithACornerTwice(faces);
   }
-  repairs.duplicateFaces = removeDuplicates(faces);
+  repairs.duplicateFaces = removeDuplicates(result.mesh.vertices.rows(), faces);
   const Eigen::Index before = result.mesh.vertices.rows();
   result.mesh = submesh(result.mesh.vertices, faces).mesh;
   repairs.unusedVertices =
@@ -137,6 +144,7 @@ RepairedMesh mergedAndCompacted(const TriangleMesh& mesh) {
 }
 
 RepairedMesh withoutZeroAreaFaces(RepairedMesh input) {
+  if (facesWithoutArea(input.mesh.vertices, input.mesh.faces).empty()) return input;
   Mesh mesh;
   const TriangleMesh& old = input.mesh;
   for (Eigen::Index v = 0; v < old.vertices.rows(); ++v) {

@@ -1,15 +1,12 @@
 #include "core/solid.h"
 
 #include "core/components.h"
+#include "core/half_edges.h"
 #include "core/moments.h"
 #include "core/validity.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <numeric>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 namespace massprops {
@@ -18,31 +15,6 @@ namespace {
 std::string count(std::size_t n, const std::string& singular, const std::string& plural) {
   return std::to_string(n) + " " + (n == 1 ? singular : plural);
 }
-
-std::uint64_t edgeKey(int from, int to) {
-  return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(from)) << 32U) |
-         static_cast<std::uint32_t>(to);
-}
-
-struct EdgeUse {
-  int forward = 0;  ///< faces that run along the edge from the smaller to the larger index
-  int backward = 0; ///< faces that run the other way
-};
-
-class DisjointSets {
-public:
-  explicit DisjointSets(std::size_t n) : parent_(n) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  std::size_t find(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void unite(std::size_t i, std::size_t j) { parent_[find(i)] = find(j); }
-
-private:
-  std::vector<std::size_t> parent_;
-};
 
 void requireFiniteTriangles(const TriangleMesh& mesh) {
   if (mesh.faces.rows() == 0) {
@@ -64,20 +36,10 @@ void requireFiniteTriangles(const TriangleMesh& mesh) {
 }
 
 void requireClosedManifoldEdges(const TriangleMesh& mesh) {
-  std::unordered_map<std::uint64_t, EdgeUse> edges;
-  edges.reserve(static_cast<std::size_t>(3 * mesh.faces.rows() / 2 + 1));
-  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      const int from = mesh.faces(f, k);
-      const int to = mesh.faces(f, (k + 1) % 3);
-      EdgeUse& use = edges[edgeKey(std::min(from, to), std::max(from, to))];
-      ++(from < to ? use.forward : use.backward);
-    }
-  }
   std::size_t boundary = 0;
   std::size_t nonManifold = 0;
   std::size_t incoherent = 0;
-  for (const auto& [key, use] : edges) {
+  for (const EdgeUse& use : edgeUses(mesh.vertices.rows(), mesh.faces)) {
     const int faces = use.forward + use.backward;
     if (faces == 1) ++boundary;
     if (faces > 2) ++nonManifold;
@@ -103,31 +65,21 @@ void requireClosedManifoldEdges(const TriangleMesh& mesh) {
 }
 
 void requireManifoldVertices(const TriangleMesh& mesh) {
-  // The faces around a vertex form one fan exactly if they are joined through shared edges. With
-  // every directed edge used once, the face after the one with corner v and edge v→to is the face
-  // with the edge to→v.
-  std::unordered_map<std::uint64_t, std::size_t> cornerWithOutgoing;
-  cornerWithOutgoing.reserve(static_cast<std::size_t>(3 * mesh.faces.rows()));
-  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      cornerWithOutgoing[edgeKey(mesh.faces(f, k), mesh.faces(f, (k + 1) % 3))] =
-          static_cast<std::size_t>(3 * f + k);
-    }
+  // Turning round a vertex from one face to the next must lead through all of its faces.
+  const VertexCorners corners = vertexCorners(mesh.vertices.rows(), mesh.faces);
+  const std::vector<int> opposite = oppositeHalfEdges(mesh.vertices.rows(), mesh.faces);
+  std::size_t bad = 0;
+  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
+    const VertexCorners::Range all = corners.at(v);
+    if (all.size() == 0) continue;
+    std::size_t turned = 0;
+    int corner = *all.begin();
+    do {
+      ++turned;
+      corner = opposite[static_cast<std::size_t>(previousHalfEdge(corner))];
+    } while (corner != *all.begin() && turned <= all.size());
+    if (turned != all.size()) ++bad;
   }
-  DisjointSets fans(static_cast<std::size_t>(3 * mesh.faces.rows()));
-  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      const int v = mesh.faces(f, k);
-      const int incoming = mesh.faces(f, (k + 2) % 3);
-      fans.unite(static_cast<std::size_t>(3 * f + k), cornerWithOutgoing.at(edgeKey(v, incoming)));
-    }
-  }
-  std::vector<int> fansAt(static_cast<std::size_t>(mesh.vertices.rows()), 0);
-  for (std::size_t corner = 0; corner < static_cast<std::size_t>(mesh.faces.size()); ++corner) {
-    if (fans.find(corner) == corner) ++fansAt[static_cast<std::size_t>(mesh.faces.data()[corner])];
-  }
-  const auto bad = static_cast<std::size_t>(
-      std::count_if(fansAt.begin(), fansAt.end(), [](int n) { return n > 1; }));
   if (bad > 0) {
     throw InvalidInput("The surface touches itself at " +
                        count(bad, "non-manifold vertex", "non-manifold vertices") +

@@ -1,47 +1,31 @@
-// Distances and rays against a triangle mesh.
+// Distances between surfaces and chords through them.
 #pragma once
 
+#include "core/triangle_tree.h"
 #include "core/types.h"
-
-#include <memory>
-#include <vector>
 
 namespace massprops {
 
-/// A search structure over the triangles of one mesh, which it copies.
-class SurfaceIndex {
-public:
-  SurfaceIndex(const Points& vertices, const Faces& faces);
-  ~SurfaceIndex();
-  SurfaceIndex(SurfaceIndex&&) noexcept;
-  SurfaceIndex& operator=(SurfaceIndex&&) noexcept;
+/// Length of the chord from row i of `points` along row i of `directions` (unit) to the first
+/// triangle that does not contain the start, infinity where there is none. n entries.
+Vector chords(const TriangleTree& surface, const Points& points, const Points& directions);
 
-  /// Length of the chord from row i of `points` along row i of `directions` (unit) to the first
-  /// triangle that does not contain the start, infinity where there is none. n entries.
-  Vector chords(const Points& points, const Points& directions) const;
-
-  struct Nearest {
-    double distance;
-    int face;
-    Vec3 point; ///< on that face
-  };
-  /// The nearest point of the surface and the triangle it lies on; quicker with any point of the
-  /// surface that is known to be near.
-  Nearest nearest(const Vec3& point) const;
-  Nearest nearest(const Vec3& point, const Nearest& hint) const;
-
-private:
-  struct Tree;
-  std::unique_ptr<Tree> tree_;
+struct Clearance {
+  /// For every vertex that a face uses: the least distance of the triangles around it from the
+  /// other surface; infinity for other vertices. Below the horizon, and for the least of all, exact
+  /// up to rounding; above it the least over the triangles' corners.
+  Vector distance;
+  double least = 0.0;           ///< of all; infinity without faces
+  std::vector<int> crossing;    ///< faces that cross the other surface, ascending
+  std::vector<int> nearestFace; ///< of the other surface, for every vertex; −1 without a face
 };
 
-/// For every vertex the vertex itself, as a point of a triangle around it: a hint for `nearest`.
-/// Vertices without a face have face −1.
-std::vector<SurfaceIndex::Nearest> verticesAsHints(const Points& vertices, const Faces& faces);
+/// How far a surface is from another one, edges and insides of faces included.
+/// docs/math.md "Measuring the wall"
+Clearance clearanceOf(const Points& vertices, const Faces& faces, const TriangleTree& other,
+                      double horizon);
 
-/// Least distance between two disjoint surfaces, faces and edges included, told for every vertex of
-/// the first that a face uses: the least over the triangles around it; infinity for other vertices.
-/// Exact (up to rounding) wherever it is below `horizon`, and the least of all always is.
+/// The distances alone.
 Vector surfaceDistances(const Points& vertices, const Faces& faces, const Points& otherVertices,
                         const Faces& otherFaces, double horizon);
 

@@ -1,12 +1,14 @@
 #include "core/validity.h"
 
+#include "core/half_edges.h"
+#include "core/parallel.h"
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Surface_mesh.h>
-#include <CGAL/box_intersection_d.h>
 
-#include <set>
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -15,94 +17,404 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
-using FacePairs = std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>>;
 
-void append(Mesh& mesh, const Points& vertices, const Faces& faces) {
-  const auto base = static_cast<Mesh::size_type>(mesh.number_of_vertices());
+/// Triangles that are looked at together.
+constexpr Eigen::Index kBlock = 64;
+/// Each has an array over all faces, so that there are to be few.
+constexpr Eigen::Index kMostChunks = 16;
+/// Share of the product of two lengths: far above the rounding of a determinant.
+constexpr double kSafe = 1e-11;
+
+Mesh cgalMesh(const Points& vertices, const Faces& faces) {
+  Mesh mesh;
   for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
     mesh.add_vertex({vertices(v, 0), vertices(v, 1), vertices(v, 2)});
   }
-  const auto vertex = [&](int v) {
-    return Mesh::Vertex_index(base + static_cast<Mesh::size_type>(v));
-  };
+  const auto vertex = [&](int v) { return Mesh::Vertex_index(static_cast<Mesh::size_type>(v)); };
   for (Eigen::Index f = 0; f < faces.rows(); ++f) {
     if (mesh.add_face(vertex(faces(f, 0)), vertex(faces(f, 1)), vertex(faces(f, 2))) ==
         Mesh::null_face()) {
       throw std::logic_error("a surface to be checked is not manifold");
     }
   }
+  return mesh;
 }
 
-using TriangleIterator = std::vector<Kernel::Triangle_3>::const_iterator;
-using Box = CGAL::Box_intersection_d::Box_with_handle_d<double, 3, TriangleIterator>;
+struct Normal {
+  Vec3 vector;   ///< (b − a) × (c − a)
+  double length; ///< product of the lengths of both edges, the scale of the vector's rounding
+};
 
-std::vector<Kernel::Triangle_3> triangles(const Points& vertices, const Faces& faces) {
-  const auto point = [&](int v) {
-    return Kernel::Point_3(vertices(v, 0), vertices(v, 1), vertices(v, 2));
-  };
-  std::vector<Kernel::Triangle_3> result;
-  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
-    result.emplace_back(point(faces(f, 0)), point(faces(f, 1)), point(faces(f, 2)));
+/// Looks for crossings of one surface with itself.
+class SelfIntersections {
+public:
+  SelfIntersections(const Points& vertices, const Faces& faces, TriangleTree::Order order)
+      : x_(vertices), faces_(faces), tree_(vertices, faces, order),
+        opposite_(oppositeHalfEdges(vertices.rows(), faces)),
+        isEmbedded_(static_cast<std::size_t>(vertices.rows())) {}
+
+  std::vector<int> find() {
+    findEmbeddedFans();
+    const Eigen::Index blocks = chunkCount(faces_.rows(), kBlock);
+    const Eigen::Index length = std::max<Eigen::Index>(16, chunkCount(blocks, kMostChunks));
+    std::vector<std::vector<int>> found(static_cast<std::size_t>(chunkCount(blocks, length)));
+    forChunks(blocks, length, [&](const Chunk& chunk) {
+      Patches patches;
+      patches.of.assign(static_cast<std::size_t>(faces_.rows()), 0);
+      for (Eigen::Index b = chunk.begin; b < chunk.end; ++b) {
+        searchBlock(b, patches, found[static_cast<std::size_t>(chunk.number)]);
+      }
+    });
+    std::vector<int> all;
+    for (const std::vector<int>& part : found) all.insert(all.end(), part.begin(), part.end());
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
   }
-  return result;
-}
 
-std::vector<Box> boxes(const std::vector<Kernel::Triangle_3>& triangles) {
-  std::vector<Box> result;
-  for (auto t = triangles.cbegin(); t != triangles.cend(); ++t) result.emplace_back(t->bbox(), t);
-  return result;
-}
+private:
+  /// For every face the number of the patch around the present block that it belongs to; numbers
+  /// of former blocks are smaller than `first`.
+  struct Patches {
+    std::vector<int> of;
+    int first = 1;
+    int next = 1;
+    std::vector<int> queue, doubtful;
+  };
 
-FacePairs intersections(const Mesh& mesh) {
-  FacePairs pairs;
-  CGAL::Polygon_mesh_processing::self_intersections<CGAL::Sequential_tag>(
-      mesh, std::back_inserter(pairs));
-  return pairs;
-}
+  static std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
+  Vec3 point(int v) const { return x_.row(v).transpose(); }
+
+  Normal normal(Eigen::Index f) const {
+    const Vec3 a = point(faces_(f, 0));
+    const Vec3 ab = point(faces_(f, 1)) - a;
+    const Vec3 ac = point(faces_(f, 2)) - a;
+    return {ab.cross(ac), std::sqrt(ab.squaredNorm() * ac.squaredNorm())};
+  }
+
+  static bool facesTowards(const Normal& n, const Vec3& unit) {
+    return n.vector.dot(unit) > kSafe * n.length;
+  }
+
+  /// A vertex's fan is embedded when all its triangles face one direction and go round it once,
+  /// seen from there.
+  void findEmbeddedFans() {
+    const VertexCorners corners = vertexCorners(x_.rows(), faces_);
+    constexpr Eigen::Index kChunk = 4096;
+    forChunks(x_.rows(), kChunk, [&](const Chunk& chunk) {
+      std::vector<Normal> normals;
+      for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
+        normals.clear();
+        Vec3 axis = Vec3::Zero();
+        for (const int corner : corners.at(v)) {
+          normals.push_back(normal(corner / 3));
+          const double length = normals.back().vector.norm();
+          if (length > 0.0) axis += normals.back().vector / length;
+        }
+        axis.normalize();
+        isEmbedded_[at(v)] = 0;
+        if (!std::all_of(normals.begin(), normals.end(),
+                         [&](const Normal& n) { return facesTowards(n, axis); })) {
+          continue;
+        }
+        // In projection every triangle turns to the left by less than half a turn: the link passes
+        // from below to above a line through the vertex, on its right, once a turn.
+        const Vec3 across = axis.unitOrthogonal();
+        int turns = 0;
+        bool isClosed = true;
+        for (const int corner : corners.at(v)) {
+          isClosed = isClosed && opposite_[at(corner)] >= 0;
+          const Vec3 from = point(faces_.data()[nextHalfEdge(corner)]) - point(static_cast<int>(v));
+          const Vec3 to =
+              point(faces_.data()[previousHalfEdge(corner)]) - point(static_cast<int>(v));
+          if (from.dot(across) < 0.0 && to.dot(across) >= 0.0) ++turns;
+        }
+        isEmbedded_[at(v)] = isClosed && turns == 1 ? 1 : 0;
+      }
+    });
+  }
+
+  /// A rectangle across `axis`, a little larger and a little smaller than it is.
+  struct Window {
+    Vec3 axis, u, w;
+    Vec2 lower, upper;
+    double slack;
+
+    Vec2 project(const Vec3& p) const { return {u.dot(p), w.dot(p)}; }
+    bool contains(const Vec2& p) const {
+      return p.x() > lower.x() + slack && p.x() < upper.x() - slack && p.y() > lower.y() + slack &&
+             p.y() < upper.y() - slack;
+    }
+    bool mayMeet(const Vec2& p, const Vec2& q) const {
+      return std::max(p.x(), q.x()) > lower.x() - slack &&
+             std::min(p.x(), q.x()) < upper.x() + slack &&
+             std::max(p.y(), q.y()) > lower.y() - slack &&
+             std::min(p.y(), q.y()) < upper.y() + slack;
+    }
+  };
+
+  /// The faces that are connected within the cylinder over the window with face `seed`, if all of
+  /// them face its axis and their vertices have embedded fans: then the projection of what is in
+  /// the cylinder is a covering of the window, hence one-to-one. They get the number
+  /// `patches.next`.
+  bool growPatch(int seed, const Window& window, Patches& patches) const {
+    const int number = patches.next;
+    std::vector<int>& queue = patches.queue;
+    queue.assign(1, seed);
+    patches.doubtful.clear();
+    patches.of[at(seed)] = number;
+    bool isGraph = true;
+    std::size_t certain = 0; // faces before this one were surely reached within the cylinder
+    for (std::size_t i = 0; i < queue.size() && isGraph; ++i) {
+      const int f = queue[i];
+      isGraph = facesTowards(normal(f), window.axis);
+      Vec2 p[3];
+      bool in[3];
+      for (int k = 0; k < 3; ++k) {
+        p[k] = window.project(point(faces_(f, k)));
+        in[k] = window.contains(p[k]);
+        if (window.mayMeet(p[k], p[k]) && isEmbedded_[at(faces_(f, k))] == 0) isGraph = false;
+      }
+      for (int k = 0; k < 3; ++k) {
+        const int n = (k + 1) % 3;
+        if (!window.mayMeet(p[k], p[n])) continue;
+        const int across = opposite_[at(3 * f + k)];
+        if (across < 0) {
+          isGraph = false;
+          break;
+        }
+        if (patches.of[at(across / 3)] == number) continue;
+        if (in[k] || in[n]) {
+          patches.of[at(across / 3)] = number;
+          queue.push_back(across / 3);
+        } else {
+          patches.doubtful.push_back(across / 3);
+        }
+      }
+    }
+    certain = queue.size();
+    // Faces that may be connected, too, must face the axis but count as strangers.
+    for (std::size_t i = 0; i < patches.doubtful.size() && isGraph; ++i) {
+      const int f = patches.doubtful[i];
+      if (patches.of[at(f)] == number) continue;
+      patches.of[at(f)] = number;
+      queue.push_back(f);
+      isGraph = facesTowards(normal(f), window.axis);
+      Vec2 p[3];
+      for (int k = 0; k < 3; ++k) {
+        p[k] = window.project(point(faces_(f, k)));
+        if (window.mayMeet(p[k], p[k]) && isEmbedded_[at(faces_(f, k))] == 0) isGraph = false;
+      }
+      for (int k = 0; k < 3; ++k) {
+        if (!window.mayMeet(p[k], p[(k + 1) % 3])) continue;
+        const int across = opposite_[at(3 * f + k)];
+        if (across < 0) {
+          isGraph = false;
+        } else if (patches.of[at(across / 3)] != number) {
+          patches.doubtful.push_back(across / 3);
+        }
+      }
+    }
+    for (std::size_t i = isGraph ? certain : 0; i < queue.size(); ++i)
+      patches.of[at(queue[i])] = -1;
+    return isGraph;
+  }
+
+  void searchBlock(Eigen::Index block, Patches& patches, std::vector<int>& found) const {
+    const Eigen::Index begin = block * kBlock;
+    const Eigen::Index end = std::min(faces_.rows(), begin + kBlock);
+    Window window;
+    Vec3 axis = Vec3::Zero();
+    Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity());
+    Vec3 upper = -lower;
+    double edge = 0.0;
+    for (Eigen::Index i = begin; i < end; ++i) {
+      const int f = tree_.faceAt(i);
+      const Normal n = normal(f);
+      const double length = n.vector.norm();
+      if (length > 0.0) axis += n.vector / length;
+      edge += std::sqrt(n.length);
+      for (int k = 0; k < 3; ++k) {
+        lower = lower.cwiseMin(point(faces_(f, k)));
+        upper = upper.cwiseMax(point(faces_(f, k)));
+      }
+    }
+    edge /= static_cast<double>(end - begin);
+    patches.first = patches.next;
+    if (axis.norm() > 0.5) {
+      window.axis = axis.normalized();
+      window.u = window.axis.unitOrthogonal();
+      window.w = window.axis.cross(window.u);
+      window.lower.setConstant(std::numeric_limits<double>::infinity());
+      window.upper = -window.lower;
+      for (Eigen::Index i = begin; i < end; ++i) {
+        for (const int v : faces_.row(tree_.faceAt(i))) {
+          const Vec2 p = window.project(point(v));
+          window.lower = window.lower.cwiseMin(p);
+          window.upper = window.upper.cwiseMax(p);
+        }
+      }
+      window.slack = kSafe * (lower.cwiseAbs().cwiseMax(upper.cwiseAbs()).maxCoeff() + edge);
+      window.lower.array() -= edge;
+      window.upper.array() += edge;
+      constexpr int kMostPatches = 4;
+      for (Eigen::Index i = begin; i < end && patches.next < patches.first + kMostPatches; ++i) {
+        const int f = tree_.faceAt(i);
+        if (patches.of[at(f)] >= patches.first) continue;
+        if (!growPatch(f, window, patches)) break;
+        ++patches.next;
+      }
+    }
+    // What is left: pairs that no patch has in common.
+    tree_.forOverlaps(lower, upper, begin, [&](Eigen::Index i) {
+      const int f = tree_.faceAt(i);
+      const int patch = patches.of[at(f)];
+      const bool isKnown = patch >= patches.first;
+      const Vec3 a = point(faces_(f, 0));
+      const Vec3 b = point(faces_(f, 1));
+      const Vec3 c = point(faces_(f, 2));
+      const Vec3 low = a.cwiseMin(b).cwiseMin(c);
+      const Vec3 high = a.cwiseMax(b).cwiseMax(c);
+      for (Eigen::Index j = begin; j < std::min(end, i); ++j) {
+        const int g = tree_.faceAt(j);
+        if (isKnown && patches.of[at(g)] == patch) continue;
+        const Vec3 p = point(faces_(g, 0));
+        const Vec3 q = point(faces_(g, 1));
+        const Vec3 r = point(faces_(g, 2));
+        if ((p.cwiseMin(q).cwiseMin(r).array() > high.array()).any() ||
+            (p.cwiseMax(q).cwiseMax(r).array() < low.array()).any()) {
+          continue;
+        }
+        if (cross(f, g)) {
+          found.push_back(f);
+          found.push_back(g);
+        }
+      }
+    });
+  }
+
+  Kernel::Point_3 exact(int v) const { return {x_(v, 0), x_(v, 1), x_(v, 2)}; }
+
+  /// Whether a plane near one of the triangles has them on different sides.
+  bool areApart(int f, int g) const {
+    for (int turn = 0; turn < 2; ++turn) {
+      const int one = turn == 0 ? f : g;
+      const int two = turn == 0 ? g : f;
+      const Normal n = normal(one);
+      const Vec3 a = point(faces_(one, 0));
+      double least = std::numeric_limits<double>::infinity();
+      double most = -least;
+      double scale = 0.0;
+      for (int k = 0; k < 3; ++k) {
+        const Vec3 d = point(faces_(two, k)) - a;
+        const double side = n.vector.dot(d);
+        least = std::min(least, side);
+        most = std::max(most, side);
+        scale = std::max(scale, d.norm());
+      }
+      const double doubt = kSafe * n.length * scale;
+      if (least > doubt || most < -doubt) return true;
+    }
+    return false;
+  }
+
+  /// As CGAL's `self_intersections` decides it.
+  bool cross(int f, int g) const {
+    int sharedF[3];
+    int sharedG[3];
+    int shared = 0;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        if (faces_(f, i) != faces_(g, j)) continue;
+        if (isEmbedded_[at(faces_(f, i))] != 0) return false;
+        sharedF[shared] = i;
+        sharedG[shared] = j;
+        if (++shared == 3) return true;
+      }
+    }
+    const auto triangle = [&](int face) {
+      return Kernel::Triangle_3(exact(faces_(face, 0)), exact(faces_(face, 1)),
+                                exact(faces_(face, 2)));
+    };
+    if (shared == 0) return !areApart(f, g) && CGAL::do_intersect(triangle(f), triangle(g));
+    if (shared == 1) {
+      const int i = sharedF[0];
+      const int j = sharedG[0];
+      return CGAL::do_intersect(triangle(f), Kernel::Segment_3(exact(faces_(g, (j + 1) % 3)),
+                                                               exact(faces_(g, (j + 2) % 3)))) ||
+             CGAL::do_intersect(triangle(g), Kernel::Segment_3(exact(faces_(f, (i + 1) % 3)),
+                                                               exact(faces_(f, (i + 2) % 3))));
+    }
+    const Kernel::Point_3 p = exact(faces_(f, sharedF[0]));
+    const Kernel::Point_3 q = exact(faces_(f, sharedF[1]));
+    const Kernel::Point_3 r = exact(faces_(f, 3 - sharedF[0] - sharedF[1]));
+    const Kernel::Point_3 s = exact(faces_(g, 3 - sharedG[0] - sharedG[1]));
+    return CGAL::coplanar(p, q, r, s) && CGAL::coplanar_orientation(p, q, r, s) == CGAL::POSITIVE;
+  }
+
+  const Points& x_;
+  const Faces& faces_;
+  TriangleTree tree_;
+  std::vector<int> opposite_;
+  std::vector<char> isEmbedded_;
+};
 
 } // namespace
 
-std::vector<int> selfIntersectingFaces(const Points& vertices, const Faces& faces) {
-  Mesh mesh;
-  append(mesh, vertices, faces);
-  std::set<int> crossing;
-  for (const auto& [a, b] : intersections(mesh)) {
-    crossing.insert(static_cast<int>(a.idx()));
-    crossing.insert(static_cast<int>(b.idx()));
-  }
-  return {crossing.begin(), crossing.end()};
+std::vector<int> selfIntersectingFaces(const Points& vertices, const Faces& faces,
+                                       TriangleTree::Order order) {
+  return SelfIntersections(vertices, faces, order).find();
 }
 
-std::vector<int> crossingFaces(const Points& inner, const Faces& innerFaces, const Points& outer,
-                               const Faces& outerFaces) {
-  const std::vector<int> own = selfIntersectingFaces(inner, innerFaces);
-  std::set<int> crossing(own.begin(), own.end());
-  const std::vector<Kernel::Triangle_3> innerTriangles = triangles(inner, innerFaces);
-  const std::vector<Kernel::Triangle_3> outerTriangles = triangles(outer, outerFaces);
-  for (std::size_t f = 0; f < innerTriangles.size(); ++f) {
-    if (innerTriangles[f].is_degenerate()) crossing.insert(static_cast<int>(f));
+std::vector<int> facesWithoutArea(const Points& vertices, const Faces& faces) {
+  std::vector<int> flat;
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    const Vec3 a = vertices.row(faces(f, 0)).transpose();
+    const Vec3 ab = vertices.row(faces(f, 1)).transpose() - a;
+    const Vec3 ac = vertices.row(faces(f, 2)).transpose() - a;
+    if (ab.cross(ac).squaredNorm() > kSafe * kSafe * ab.squaredNorm() * ac.squaredNorm()) continue;
+    const auto exact = [&](int v) {
+      return Kernel::Point_3(vertices(v, 0), vertices(v, 1), vertices(v, 2));
+    };
+    if (CGAL::collinear(exact(faces(f, 0)), exact(faces(f, 1)), exact(faces(f, 2)))) {
+      flat.push_back(static_cast<int>(f));
+    }
   }
-  std::vector<Box> innerBoxes = boxes(innerTriangles);
-  std::vector<Box> outerBoxes = boxes(outerTriangles);
-  CGAL::box_intersection_d(innerBoxes.begin(), innerBoxes.end(), outerBoxes.begin(),
-                           outerBoxes.end(), [&](const Box& a, const Box& b) {
-                             if (CGAL::do_intersect(*a.handle(), *b.handle())) {
-                               crossing.insert(
-                                   static_cast<int>(a.handle() - innerTriangles.cbegin()));
-                             }
-                           });
-  return {crossing.begin(), crossing.end()};
+  return flat;
 }
 
 std::vector<bool> insideOf(const Points& points, const Points& surface, const Faces& faces) {
-  Mesh mesh;
-  append(mesh, surface, faces);
+  const Mesh mesh = cgalMesh(surface, faces);
   const CGAL::Side_of_triangle_mesh<Mesh, Kernel> side(mesh);
   std::vector<bool> inside;
   for (Eigen::Index p = 0; p < points.rows(); ++p) {
     inside.push_back(side({points(p, 0), points(p, 1), points(p, 2)}) == CGAL::ON_BOUNDED_SIDE);
   }
   return inside;
+}
+
+bool isInside(const Points& vertices, const Faces& component, const Points& surface,
+              const Faces& faces, const TriangleTree& surfaceTree) {
+  // The way to a nearest point within a face meets the surface nowhere else, so that its side of
+  // the face decides. Some vertex has such a point, most often the first.
+  constexpr Eigen::Index kMostTries = 64;
+  const Eigen::Index step = std::max<Eigen::Index>(1, component.rows() / kMostTries);
+  for (Eigen::Index f = 0; f < component.rows(); f += step) {
+    const Vec3 p = vertices.row(component(f, 0)).transpose();
+    const int nearest = surfaceTree.nearest(p).face;
+    const Vec3 a = surface.row(faces(nearest, 0)).transpose();
+    const Vec3 b = surface.row(faces(nearest, 1)).transpose();
+    const Vec3 c = surface.row(faces(nearest, 2)).transpose();
+    const Vec3 weights = nearestWeights(p, a, b, c);
+    const Vec3 normal = (b - a).cross(c - a);
+    const Vec3 way = p - (weights[0] * a + weights[1] * b + weights[2] * c);
+    constexpr double kWellInside = 1e-3;
+    if (weights.minCoeff() > kWellInside && way.norm() > 1e-6 * (b - a).norm() &&
+        std::abs(normal.dot(way)) > 0.999 * normal.norm() * way.norm()) {
+      return normal.dot(way) < 0.0;
+    }
+  }
+  return insideOf(vertices.row(component(0, 0)), surface, faces).front();
 }
 
 } // namespace massprops

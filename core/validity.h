@@ -1,6 +1,7 @@
 // Whether triangles form what a printer can print, decided by exact predicates.
 #pragma once
 
+#include "core/triangle_tree.h"
 #include "core/types.h"
 
 #include <vector>
@@ -8,17 +9,21 @@
 namespace massprops {
 
 /// Faces that cross or overlap another face of the same surface, ascending; touching along a
-/// shared edge or vertex is no crossing. Exact.
-/// \pre every edge of the surface has one or two faces
-std::vector<int> selfIntersectingFaces(const Points& vertices, const Faces& faces);
+/// shared edge or vertex is no crossing. Exact. Where the surface is smooth it proves by projection
+/// that whole patches cannot cross themselves and compares no pairs: docs/math.md "Crossings".
+/// `order`: of the faces. \pre every edge of the surface has one or two faces
+std::vector<int> selfIntersectingFaces(const Points& vertices, const Faces& faces,
+                                       TriangleTree::Order order = TriangleTree::Order::Any);
 
-/// Faces of the inner surface that cross or touch the inner or the outer surface, or have no area,
-/// ascending. Exact.
-/// The outer surface's crossings with itself are not told.
-std::vector<int> crossingFaces(const Points& inner, const Faces& innerFaces, const Points& outer,
-                               const Faces& outerFaces);
+/// Faces without area, ascending. Exact.
+std::vector<int> facesWithoutArea(const Points& vertices, const Faces& faces);
 
 /// Whether each point lies strictly inside of the closed surface. Exact.
 std::vector<bool> insideOf(const Points& points, const Points& surface, const Faces& faces);
+
+/// Whether a component that does not cross the closed, outward oriented surface lies inside of it;
+/// decided by one of its vertices. Exact.
+bool isInside(const Points& vertices, const Faces& component, const Points& surface,
+              const Faces& faces, const TriangleTree& surfaceTree);
 
 } // namespace massprops

@@ -1,5 +1,7 @@
 #include "core/workpiece.h"
 
+#include "core/triangle_tree.h"
+
 namespace massprops {
 namespace {
 
@@ -7,6 +9,30 @@ namespace {
 constexpr double kDefaultWall = 0.01;
 /// A pivot farther away, in diagonals, is a slip of the pen, and costs digits.
 constexpr double kFarthestPivot = 10.0;
+
+/// Faces in spatial order, vertices in the order in which these use them.
+void arrangeInSpace(const Solid& solid, Workpiece& piece) {
+  const Points working = snapped(toWorking(piece.frame, solid.vertices()));
+  const std::vector<int> faceOf = spatialOrder(working, solid.faces());
+  std::vector<int> number(static_cast<std::size_t>(working.rows()), -1);
+  piece.vertexOf.reserve(number.size());
+  piece.faces.resize(solid.faces().rows(), 3);
+  for (Eigen::Index f = 0; f < piece.faces.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const int v = solid.faces()(faceOf[static_cast<std::size_t>(f)], k);
+      int& place = number[static_cast<std::size_t>(v)];
+      if (place < 0) {
+        place = static_cast<int>(piece.vertexOf.size());
+        piece.vertexOf.push_back(v);
+      }
+      piece.faces(f, k) = place;
+    }
+  }
+  piece.vertices.resize(working.rows(), 3);
+  for (Eigen::Index v = 0; v < working.rows(); ++v) {
+    piece.vertices.row(v) = working.row(piece.vertexOf[static_cast<std::size_t>(v)]);
+  }
+}
 
 } // namespace
 
@@ -23,7 +49,6 @@ Workpiece makeWorkpiece(const Solid& solid, const Options& options) {
   piece.frame.origin = piece.frame.rotation.transpose() * contact.centre;
   piece.frame.length = solid.diagonal();
   piece.contact = scaled(contact.area, solid.diagonal());
-  piece.vertices = snapped(toWorking(piece.frame, solid.vertices()));
   piece.wall = options.innerLowerBound.value_or(kDefaultWall * solid.diagonal()) / solid.diagonal();
   if (options.pivot) {
     piece.pivot = toWorking(piece.frame, Points(options.pivot->transpose())).row(0).transpose();
@@ -33,10 +58,30 @@ Workpiece makeWorkpiece(const Solid& solid, const Options& options) {
                          "and pivot_z in the coordinates of the scene.");
     }
   }
-  piece.faces = solid.faces();
+  arrangeInSpace(solid, piece);
   piece.cavities = solid.cavities();
   piece.cavities.vertices = toWorking(piece.frame, solid.cavities().vertices);
   return piece;
+}
+
+Points inSolidOrder(const Workpiece& piece, const Points& values) {
+  Points result(values.rows(), 3);
+  for (Eigen::Index v = 0; v < values.rows(); ++v) {
+    result.row(piece.vertexOf[static_cast<std::size_t>(v)]) = values.row(v);
+  }
+  return result;
+}
+
+Vector inSolidOrder(const Workpiece& piece, const Vector& values) {
+  Vector result(values.size());
+  for (Eigen::Index v = 0; v < values.size(); ++v) {
+    result[piece.vertexOf[static_cast<std::size_t>(v)]] = values[v];
+  }
+  return result;
+}
+
+Faces inSolidOrder(const Workpiece& piece, const Faces& faces) {
+  return faces.unaryExpr([&](int v) { return piece.vertexOf[static_cast<std::size_t>(v)]; });
 }
 
 } // namespace massprops

@@ -6,12 +6,18 @@
 #include "core/options.h"
 #include "core/solid.h"
 
+#include <vector>
+
 namespace massprops {
 
 struct Workpiece {
   Frame frame;
-  Points vertices; ///< n×3, working frame
-  Faces faces;     ///< outward
+  /// n×3, working frame, in the order in which the faces use them: what is near in space is near in
+  /// memory.
+  Points vertices;
+  Faces faces; ///< outward, in spatial order (triangle_tree.h)
+  /// For every vertex its number in the solid.
+  std::vector<int> vertexOf;
   /// Existing cavities, working frame, oriented into them. The new cavity takes their place.
   TriangleMesh cavities;
   ContactArea contact; ///< working lengths
@@ -22,5 +28,10 @@ struct Workpiece {
 
 /// \throw InvalidInput when a goal that needs a contact area has none, or the pivot lies far away
 Workpiece makeWorkpiece(const Solid& solid, const Options& options);
+
+/// Rows, or faces, over the piece's vertices as rows or faces over the solid's.
+Points inSolidOrder(const Workpiece& piece, const Points& values);
+Vector inSolidOrder(const Workpiece& piece, const Vector& values);
+Faces inSolidOrder(const Workpiece& piece, const Faces& faces);
 
 } // namespace massprops

@@ -70,13 +70,13 @@ TEST(Lipschitz, FunctionsAreTheTightestOnesThatKeepTheSlope) {
 
 TEST(Chords, ThroughABallHaveTheLengthOfTheChord) {
   const TriangleMesh ball = sphere(12);
-  const SurfaceIndex index(ball.vertices, ball.faces);
+  const TriangleTree tree(ball.vertices, ball.faces);
   Points towards = -ball.vertices;
   // Through the centre: 2, up to the depth of the polyhedron's faces.
-  const Vector diameters = index.chords(ball.vertices, towards);
+  const Vector diameters = chords(tree, ball.vertices, towards);
   EXPECT_NEAR(diameters.minCoeff(), 2.0, 0.01);
   EXPECT_NEAR(diameters.maxCoeff(), 2.0, 1e-12);
-  EXPECT_TRUE((index.chords(ball.vertices, ball.vertices).array() ==
+  EXPECT_TRUE((chords(tree, ball.vertices, ball.vertices).array() ==
                std::numeric_limits<double>::infinity())
                   .all()); // outwards nothing is hit
 }
@@ -118,13 +118,13 @@ TEST(SelfIntersectingFaces, AgreeWithTheCheckPairByPair) {
   EXPECT_GT(intersectingPairs(pierced), 0U);
 }
 
-TEST(CrossingFaces, AreThoseOfTheInnerSurfaceThatMeetTheOuterOne) {
+TEST(Clearance, NamesTheFacesThatMeetTheOtherSurface) {
   const TriangleMesh outer = sphere(6);
   const TriangleMesh inside = scaled(outer, 0.5);
-  EXPECT_TRUE(crossingFaces(inside.vertices, inside.faces, outer.vertices, outer.faces).empty());
+  const TriangleTree tree(outer.vertices, outer.faces);
+  EXPECT_TRUE(clearanceOf(inside.vertices, inside.faces, tree, 0.1).crossing.empty());
   const TriangleMesh across = transformed(inside, Mat3::Identity(), {0.7, 0, 0});
-  const std::vector<int> crossing =
-      crossingFaces(across.vertices, across.faces, outer.vertices, outer.faces);
+  const std::vector<int> crossing = clearanceOf(across.vertices, across.faces, tree, 0.1).crossing;
   ASSERT_FALSE(crossing.empty());
   // Each of them has corners near the outer sphere, within an edge length.
   for (const int f : crossing) {

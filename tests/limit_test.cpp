@@ -3,7 +3,7 @@
 
 #include "core/pipeline.h"
 #include "core/solid.h"
-#include "core/spatial.h"
+#include "core/triangle_tree.h"
 #include "core/validity.h"
 #include "core/workpiece.h"
 #include "samples.h"
@@ -40,7 +40,7 @@ double leastValue(const F& f, double low, double high) {
 TEST(AdmissibleCells, OfABoxFillTheSmallerBox) {
   const double wall = 0.07;
   const TriangleMesh outer = box({1.0, 1.5, 2.0}, 2);
-  const AdmissibleCells cells = admissibleCells(outer.vertices, outer.faces, wall);
+  const AdmissibleCells cells = admissibleCells(outer.vertices, outer.faces, outer, wall);
   const Eigen::Array3d inner = Eigen::Array3d(1.0, 1.5, 2.0) - 2 * wall;
   const double volume = inner.prod();
   const Eigen::RowVectorXd sums = cells.colwise().sum();
@@ -58,7 +58,7 @@ TEST(AdmissibleCells, OfABoxFillTheSmallerBox) {
 TEST(AdmissibleCells, LeaveOutWhatIsOutsideWhereTheWallIsThinnerThanACell) {
   const double wall = 1e-3;
   const TriangleMesh outer = torus(1.0, 0.4, 96, 48);
-  const AdmissibleCells cells = admissibleCells(outer.vertices, outer.faces, wall, 5000);
+  const AdmissibleCells cells = admissibleCells(outer.vertices, outer.faces, outer, wall, 5000);
   const double volume = moments(outer.vertices, outer.faces)[0];
   const double area = 4 * kPi * kPi * 0.4;
   EXPECT_NEAR(cells.col(0).sum(), volume - area * wall, 1e-2 * volume);
@@ -66,7 +66,7 @@ TEST(AdmissibleCells, LeaveOutWhatIsOutsideWhereTheWallIsThinnerThanACell) {
 
 TEST(AdmissibleCells, AreNoneWhereTheWallIsTooThick) {
   const TriangleMesh outer = box({1.0, 1.0, 1.0}, 1);
-  EXPECT_EQ(admissibleCells(outer.vertices, outer.faces, 0.6).rows(), 0);
+  EXPECT_EQ(admissibleCells(outer.vertices, outer.faces, outer, 0.6).rows(), 0);
 }
 
 TEST(Limit, OfAStandingBoxIsHollowAboveItsCentreOfMass) {
@@ -87,7 +87,7 @@ TEST(Limit, OfAStandingBoxIsHollowAboveItsCentreOfMass) {
   const Moments solid = moments(outer.vertices, outer.faces);
   const auto goal = makeStandGoal(square(side), {}, 1.0);
   const Limit limit =
-      limitOf(*goal, {}, solid, 0.0, admissibleCells(outer.vertices, outer.faces, wall));
+      limitOf(*goal, {}, solid, 0.0, admissibleCells(outer.vertices, outer.faces, outer, wall));
   const double gain = height / 2 - expected;
   EXPECT_NEAR(limit.objective, expected, 3e-3 * gain);
   EXPECT_EQ(limit.violation, 0.0);
@@ -114,8 +114,8 @@ TEST(Limit, OfASpinningBallIsTwoConesAlongTheAxis) {
   Weights inertiaOnly;
   inertiaOnly.centerOfMass = 0.0;
   const auto goal = makeSpinGoal(solid, inertiaOnly, 1.0);
-  const Limit limit =
-      limitOf(*goal, inertiaOnly, solid, 0.0, admissibleCells(outer.vertices, outer.faces, wall));
+  const Limit limit = limitOf(*goal, inertiaOnly, solid, 0.0,
+                              admissibleCells(outer.vertices, outer.faces, outer, wall));
   const double gain = 2.0 - expected;
   EXPECT_NEAR(limit.objective, expected, 5e-3 * gain);
   EXPECT_LE(limit.violation, 1e-6);
@@ -136,7 +136,7 @@ TEST(Limit, OfAHeavyFillingLiesBelow) {
       },
       wall, 2 - wall);
   const Limit limit =
-      limitOf(*goal, {}, solid, filling, admissibleCells(outer.vertices, outer.faces, wall));
+      limitOf(*goal, {}, solid, filling, admissibleCells(outer.vertices, outer.faces, outer, wall));
   EXPECT_NEAR(limit.objective, expected, 3e-3 * (1.0 - expected));
 }
 
@@ -186,7 +186,8 @@ TEST_P(SampleLimit, IsWhatBruteForceFindsOnVoxels) {
   const Solid solid = makeSolid(model);
   options.innerLowerBound = 0.02 * solid.diagonal();
   const Workpiece piece = makeWorkpiece(solid, options);
-  const AdmissibleCells cells = admissibleCells(piece.vertices, piece.faces, piece.wall);
+  const AdmissibleCells cells =
+      admissibleCells(piece.vertices, piece.faces, {piece.vertices, piece.faces}, piece.wall);
 
   // Plain voxels, in or out by their centre.
   const Vec3 low = piece.vertices.colwise().minCoeff();
@@ -200,11 +201,13 @@ TEST_P(SampleLimit, IsWhatBruteForceFindsOnVoxels) {
   for (std::size_t i = 0; i < centres.size(); ++i)
     points.row(static_cast<Eigen::Index>(i)) = centres[i].transpose();
   const std::vector<bool> inside = insideOf(points, piece.vertices, piece.faces);
-  const SurfaceIndex surface(piece.vertices, piece.faces);
+  const TriangleTree surface(piece.vertices, piece.faces);
   Moments voxels = Moments::Zero();
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     const Vec3 p = points.row(i).transpose();
-    if (!inside[static_cast<std::size_t>(i)] || surface.nearest(p).distance < piece.wall) continue;
+    if (!inside[static_cast<std::size_t>(i)] ||
+        std::sqrt(surface.nearest(p).squaredDistance) < piece.wall)
+      continue;
     Moments one;
     one << 1.0, p, p.cwiseAbs2(), p.x() * p.y(), p.y() * p.z(), p.z() * p.x();
     voxels += one * edge * edge * edge;

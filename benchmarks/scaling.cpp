@@ -1,0 +1,159 @@
+// Times, memory and results of the whole filter from six thousand to a million vertices, next to
+// what CGAL's skeletonisation of the same mesh takes in the same run. benchmarks/results.md keeps
+// the output with the machine named.
+//
+// usage: scaling [all]   `all` measures the skeletonisation of a million vertices, too: minutes, 5
+// GB
+#include "core/parallel.h"
+#include "core/pipeline.h"
+#include "core/stopwatch.h"
+#include "organic_model.h"
+#include "property/cases.h"
+#include "property/guarantee.h"
+#include "samples.h"
+
+#include <CGAL/Mean_curvature_flow_skeletonization.h>
+#include <CGAL/Polyhedron_3.h>
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/copy_face_graph.h>
+#include <CGAL/extract_mean_curvature_flow_skeleton.h>
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace massprops;
+
+struct Model {
+  const char* name;
+  std::function<TriangleMesh()> make;
+};
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+double number(const Result& result, const char* key) {
+  return std::get<double>(result.report.at(key));
+}
+
+/// CGAL as its manual shows it. The mesh type must not be the one of core/skeleton.cpp: both
+/// instantiations would be the same to the linker.
+double cgalSkeletonSeconds(const TriangleMesh& mesh) {
+  using Kernel = CGAL::Simple_cartesian<double>;
+  using Polyhedron = CGAL::Polyhedron_3<Kernel>;
+  CGAL::Surface_mesh<Kernel::Point_3> surface;
+  using Vertex = CGAL::Surface_mesh<Kernel::Point_3>::Vertex_index;
+  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
+    surface.add_vertex({mesh.vertices(v, 0), mesh.vertices(v, 1), mesh.vertices(v, 2)});
+  }
+  const auto vertex = [](int v) { return Vertex(static_cast<Vertex::size_type>(v)); };
+  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
+    surface.add_face(vertex(mesh.faces(f, 0)), vertex(mesh.faces(f, 1)), vertex(mesh.faces(f, 2)));
+  }
+  Polyhedron polyhedron;
+  CGAL::copy_face_graph(surface, polyhedron);
+  const Stopwatch time;
+  CGAL::Mean_curvature_flow_skeletonization<Polyhedron>::Skeleton skeleton;
+  CGAL::extract_mean_curvature_flow_skeleton(polyhedron, skeleton);
+  return time.seconds();
+}
+
+double residentMegabytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+void measure(const Model& model, GoalKind goal, bool withSkeleton) {
+  const TriangleMesh mesh = model.make();
+  Options options;
+  options.goal = goal;
+  // As a float mesh stores it.
+  options.representable = [](const Points& points) {
+    return Points(points.cast<float>().cast<double>());
+  };
+  const int runs = mesh.vertices.rows() > 100000 ? 3 : 5;
+  const double before = residentMegabytes();
+  double memory = 0.0;
+  std::vector<double> skeleton, basis, optimization, inspection, total;
+  Result result;
+  for (int run = 0; run < runs; ++run) {
+    result = Result{};
+    result = optimizeMassProperties(mesh, options);
+    if (run == 0) memory = residentMegabytes() - before;
+    skeleton.push_back(number(result, "seconds_skeleton"));
+    basis.push_back(number(result, "seconds_basis"));
+    optimization.push_back(number(result, "seconds_optimization"));
+    inspection.push_back(number(result, "seconds_inspection"));
+    total.push_back(number(result, "seconds_total"));
+  }
+  testing::PropertyCase promise;
+  promise.input = promise.body = mesh;
+  promise.options = options;
+  promise.wall =
+      0.01 * (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).norm();
+  promise.floats = true;
+  const std::size_t broken = testing::brokenPromises(promise, result).size();
+  std::printf("%-12s %-5s %8ld %9.3f %8.3f %9.3f %9.3f %8.3f", model.name,
+              goal == GoalKind::Stand ? "Stand" : "Spin", static_cast<long>(mesh.vertices.rows()),
+              median(skeleton), median(basis), median(optimization), median(inspection),
+              median(total));
+  const double plain = withSkeleton ? cgalSkeletonSeconds(mesh) : 0.0;
+  if (withSkeleton) {
+    std::printf(" %9.2f %6.3f", plain, median(total) / plain);
+  } else {
+    std::printf(" %9s %6s", "-", "-");
+  }
+  std::printf(" %7.0f %10.6f %9.1e  %s\n", memory, number(result, "objective_after"),
+              number(result, "max_constraint_violation"), broken == 0 ? "holds" : "BROKEN");
+  std::fflush(stdout);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  const bool all = argc > 1 && std::strcmp(argv[1], "all") == 0;
+  const std::vector<Model> models = {
+      {"box", [] { return testing::sampleMesh("box_on_corner"); }},
+      {"dinosaur", [] { return testing::sampleMesh("toy_dinosaur"); }},
+      {"organic 20k", [] { return benchmarks::organicModel(20000); }},
+      {"organic 100k", [] { return benchmarks::organicModel(100000); }},
+      {"organic 1M", [] { return benchmarks::organicModel(1000000); }},
+  };
+  std::printf("Medians, seconds of wall time, %d threads; memory above the input in megabytes.\n",
+              threadCount());
+  std::printf("%-12s %-5s %8s %9s %8s %9s %9s %8s %9s %6s %7s %10s %9s  %s\n", "model", "goal",
+              "vertices", "skeleton", "basis", "optimis.", "inspect.", "total", "CGAL's", "ratio",
+              "memory", "objective", "violation", "guarantee");
+  std::fflush(stdout);
+  for (const Model& model : models) {
+    for (const GoalKind goal : {GoalKind::Stand, GoalKind::Spin}) {
+      // A process for each: peak memory is of the whole process, and nothing of one run is left in
+      // the heap for the next.
+      const pid_t child = fork();
+      if (child == 0) {
+        const bool large = std::strcmp(model.name, "organic 1M") == 0;
+        measure(model, goal, goal == GoalKind::Stand && (all || !large));
+        _exit(0);
+      }
+      int status = 0;
+      if (child < 0 || waitpid(child, &status, 0) != child || status != 0) {
+        std::printf("%s: a run failed\n", model.name);
+        return 1;
+      }
+    }
+  }
+  return 0;
+}

@@ -1,0 +1,49 @@
+// Who is next to whom on a closed surface.
+#pragma once
+
+#include "core/types.h"
+
+#include <vector>
+
+namespace massprops {
+
+/// Half-edge 3f + k runs from corner k of face f to the next one. For each the half-edge that runs
+/// the other way; −1 where the surface has no such. \pre no directed edge is there twice
+std::vector<int> oppositeHalfEdges(Eigen::Index vertexCount, const Faces& faces);
+
+inline int nextHalfEdge(int h) {
+  return h % 3 == 2 ? h - 2 : h + 1;
+}
+inline int previousHalfEdge(int h) {
+  return h % 3 == 0 ? h + 2 : h - 1;
+}
+
+/// The corners of the faces at each vertex: those of vertex v are
+/// corners[begin[v]] … corners[begin[v+1] − 1], ascending, corner k of face f being 3f + k.
+struct VertexCorners {
+  std::vector<int> begin;
+  std::vector<int> corners;
+
+  struct Range {
+    const int* first;
+    const int* last;
+    const int* begin() const { return first; }
+    const int* end() const { return last; }
+    std::size_t size() const { return static_cast<std::size_t>(last - first); }
+  };
+  Range at(Eigen::Index v) const {
+    const auto i = static_cast<std::size_t>(v);
+    return {corners.data() + begin[i], corners.data() + begin[i + 1]};
+  }
+};
+VertexCorners vertexCorners(Eigen::Index vertexCount, const Faces& faces);
+
+/// How many faces run along an edge, from the smaller to the larger index and back.
+struct EdgeUse {
+  int forward = 0;
+  int backward = 0;
+};
+/// Of every edge, by its smaller index. No need for a manifold; corners of a face must differ.
+std::vector<EdgeUse> edgeUses(Eigen::Index vertexCount, const Faces& faces);
+
+} // namespace massprops

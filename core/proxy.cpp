@@ -1,0 +1,363 @@
+#include "core/proxy.h"
+
+#include "core/components.h"
+#include "core/half_edges.h"
+#include "core/parallel.h"
+#include "core/triangle_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace massprops {
+namespace {
+
+/// A proxy that is not smaller by this factor does not pay.
+constexpr double kWorthwhile = 1.5;
+/// Weight of an edge's length against the distance from the surface, both squared: little, so that
+/// thin limbs keep more vertices than broad flanks.
+constexpr double kLengthWeight = 5e-4;
+/// A collapse must not turn a face by more than about 80°, nor make one flatter than this.
+constexpr double kLeastTurnCosine = 0.2;
+constexpr double kLeastQuality = 0.05;
+/// No component becomes smaller: its shape would be lost.
+constexpr int kLeastVertices = 64;
+constexpr Eigen::Index kChunk = 4096;
+
+/// Squared distance from planes, weighted with their triangles' areas: xᵀAx + 2bᵀx + c. [GH97]
+struct Quadric {
+  std::array<double, 10> q{}; ///< xx xy xz yy yz zz x y z 1
+  double area = 0.0;
+
+  void addPlane(const Vec3& n, const Vec3& point, double weight) {
+    const double d = -n.dot(point);
+    const double terms[10] = {n.x() * n.x(), n.x() * n.y(), n.x() * n.z(), n.y() * n.y(),
+                              n.y() * n.z(), n.z() * n.z(), n.x() * d,     n.y() * d,
+                              n.z() * d,     d * d};
+    for (std::size_t i = 0; i < 10; ++i) q[i] += weight * terms[i];
+    area += weight;
+  }
+  void add(const Quadric& other) {
+    for (std::size_t i = 0; i < 10; ++i) q[i] += other.q[i];
+    area += other.area;
+  }
+  double at(const Vec3& x) const {
+    return x.x() * (q[0] * x.x() + 2.0 * (q[1] * x.y() + q[2] * x.z() + q[6])) +
+           x.y() * (q[3] * x.y() + 2.0 * (q[4] * x.z() + q[7])) +
+           x.z() * (q[5] * x.z() + 2.0 * q[8]) + q[9];
+  }
+};
+
+/// The surface while its edges collapse. Face f has the half-edges 3f, 3f+1, 3f+2.
+class Collapsing {
+public:
+  Collapsing(const Points& vertices, const Faces& faces)
+      : x_(vertices), corner_(faces.data(), faces.data() + faces.size()),
+        opposite_(oppositeHalfEdges(vertices.rows(), faces)),
+        outgoing_(static_cast<std::size_t>(vertices.rows()), -1),
+        parent_(static_cast<std::size_t>(vertices.rows())),
+        quadrics_(static_cast<std::size_t>(vertices.rows())),
+        component_(componentNumbers(vertices.rows(), faces)) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+    for (std::size_t h = 0; h < corner_.size(); ++h)
+      outgoing_[at(corner_[h])] = static_cast<int>(h);
+    for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+      const Vec3 a = point(faces(f, 0));
+      const Vec3 normal = (point(faces(f, 1)) - a).cross(point(faces(f, 2)) - a);
+      const double twiceArea = normal.norm();
+      if (!(twiceArea > 0.0)) continue;
+      for (const int v : faces.row(f)) {
+        quadrics_[at(v)].addPlane(normal / twiceArea, a, twiceArea / 6.0);
+      }
+    }
+    for (std::size_t v = 0; v < outgoing_.size(); ++v) {
+      if (outgoing_[v] < 0) continue;
+      ++alive_;
+      const auto c = at(component_[v]);
+      if (sizes_.size() <= c) sizes_.resize(c + 1, 0);
+      ++sizes_[c];
+    }
+  }
+
+  void reduceTo(Eigen::Index size) {
+    // Sweeps with rising thresholds: the order of the vertices along a space-filling curve is kept,
+    // which is quicker than a queue, and each sweep thins the surface out evenly.
+    const double totalArea =
+        std::accumulate(quadrics_.begin(), quadrics_.end(), 0.0,
+                        [](double sum, const Quadric& q) { return sum + q.area; });
+    const double areaEach = totalArea / static_cast<double>(std::max<Eigen::Index>(alive_, 1));
+    double threshold = kLengthWeight * areaEach * areaEach;
+    constexpr int kMostSweeps = 200;
+    for (int sweep = 0; sweep < kMostSweeps && alive_ > size; ++sweep) {
+      const bool near = alive_ < 3 * size;
+      for (std::size_t v = 0; v < outgoing_.size() && alive_ > size; ++v) {
+        if (outgoing_[v] >= 0) tryToRemove(static_cast<int>(v), threshold);
+      }
+      threshold *= near ? 1.5 : 3.0;
+    }
+  }
+
+  Proxy result(Eigen::Index vertexCount) {
+    Proxy proxy{{}, {}, Interpolation::identity(0)};
+    std::vector<int> number(outgoing_.size(), -1);
+    for (std::size_t v = 0; v < outgoing_.size(); ++v) {
+      if (outgoing_[v] < 0) continue;
+      number[v] = static_cast<int>(proxy.vertexOf.size());
+      proxy.vertexOf.push_back(static_cast<int>(v));
+    }
+    proxy.mesh.vertices.resize(static_cast<Eigen::Index>(proxy.vertexOf.size()), 3);
+    for (std::size_t i = 0; i < proxy.vertexOf.size(); ++i) {
+      proxy.mesh.vertices.row(static_cast<Eigen::Index>(i)) = x_.row(proxy.vertexOf[i]);
+    }
+    std::vector<int> kept;
+    for (std::size_t h = 0; h < corner_.size(); h += 3) {
+      if (corner_[h] < 0) continue;
+      for (std::size_t k = 0; k < 3; ++k) kept.push_back(number[at(corner_[h + k])]);
+    }
+    proxy.mesh.faces =
+        Eigen::Map<const Faces>(kept.data(), static_cast<Eigen::Index>(kept.size() / 3), 3);
+    proxy.interpolation = interpolation(proxy.mesh, number, vertexCount);
+    return proxy;
+  }
+
+private:
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  Vec3 point(int v) const { return x_.row(v).transpose(); }
+  int to(int h) const { return corner_[at(nextHalfEdge(h))]; }
+
+  /// The half-edges from v outwards, counter-clockwise.
+  void collectFan(int v, std::vector<int>& fan) const {
+    fan.clear();
+    int h = outgoing_[at(v)];
+    do {
+      fan.push_back(h);
+      h = opposite_[at(previousHalfEdge(h))];
+    } while (h != outgoing_[at(v)]);
+  }
+
+  void tryToRemove(int v, double threshold) {
+    if (sizes_[at(component_[at(v)])] <= kLeastVertices) return;
+    collectFan(v, fan_);
+    const Quadric& own = quadrics_[at(v)];
+    candidates_.clear();
+    for (const int h : fan_) {
+      const Vec3 target = point(to(h));
+      const double cost =
+          own.at(target) + kLengthWeight * own.area * (target - point(v)).squaredNorm();
+      if (cost <= threshold) candidates_.emplace_back(cost, h);
+    }
+    std::sort(candidates_.begin(), candidates_.end());
+    for (const auto& [cost, h] : candidates_) {
+      if (!isLegal(v, h)) continue;
+      collapse(v, h);
+      return;
+    }
+  }
+
+  /// Whether moving v onto the end of h keeps the surface a manifold [link condition] and turns no
+  /// face over. `fan_` is v's.
+  bool isLegal(int v, int h) {
+    const int w = to(h);
+    collectFan(w, otherFan_);
+    int common = 0;
+    for (const int g : fan_) {
+      const int u = to(g);
+      for (const int e : otherFan_) common += to(e) == u ? 1 : 0;
+    }
+    if (common != 2 || fan_.size() < 4 || otherFan_.size() < 4) return false;
+    const int left = to(nextHalfEdge(h));
+    const int right = to(nextHalfEdge(opposite_[at(h)]));
+    if (valence(left) < 4 || valence(right) < 4) return false;
+    const Vec3 target = point(w);
+    const Vec3 from = point(v);
+    for (const int g : fan_) {
+      const int b = to(g);
+      const int c = to(nextHalfEdge(g));
+      if (b == w || c == w) continue;
+      const Vec3 pb = point(b);
+      const Vec3 pc = point(c);
+      const Vec3 before = (pb - from).cross(pc - from);
+      const Vec3 after = (pb - target).cross(pc - target);
+      const double longest = std::max(
+          {(pb - target).squaredNorm(), (pc - target).squaredNorm(), (pc - pb).squaredNorm()});
+      const double areas = before.norm() * after.norm();
+      if (!(before.dot(after) > kLeastTurnCosine * areas)) return false;
+      if (!(after.norm() > kLeastQuality * longest) && after.norm() < before.norm()) return false;
+    }
+    return true;
+  }
+
+  int valence(int v) const {
+    int count = 0;
+    int h = outgoing_[at(v)];
+    do {
+      ++count;
+      h = opposite_[at(previousHalfEdge(h))];
+    } while (h != outgoing_[at(v)]);
+    return count;
+  }
+
+  void collapse(int v, int h) {
+    const int w = to(h);
+    for (const int g : fan_) corner_[at(g)] = w;
+    for (const int dead : {h, opposite_[at(h)]}) {
+      // The face goes; the faces beyond its two other sides become neighbours.
+      const int n = nextHalfEdge(dead);
+      const int p = previousHalfEdge(dead);
+      const int beyondN = opposite_[at(n)];
+      const int beyondP = opposite_[at(p)];
+      opposite_[at(beyondN)] = beyondP;
+      opposite_[at(beyondP)] = beyondN;
+      // p ends and n begins where the dead half-edge begins and ends; the third corner is p's
+      // start.
+      outgoing_[at(corner_[at(p)])] = beyondN;
+      outgoing_[at(w)] = corner_[at(beyondN)] == w ? beyondN : beyondP;
+      for (const int e : {dead, n, p}) corner_[at(e)] = -1;
+    }
+    outgoing_[at(v)] = -1;
+    parent_[at(v)] = w;
+    quadrics_[at(w)].add(quadrics_[at(v)]);
+    --alive_;
+    --sizes_[at(component_[at(v)])];
+  }
+
+  int root(int v) {
+    while (parent_[at(v)] != v) {
+      parent_[at(v)] = parent_[at(parent_[at(v)])];
+      v = parent_[at(v)];
+    }
+    return v;
+  }
+
+  Interpolation interpolation(const TriangleMesh& mesh, const std::vector<int>& number,
+                              Eigen::Index vertexCount);
+
+  const Points& x_;
+  std::vector<int> corner_, opposite_, outgoing_, parent_;
+  std::vector<Quadric> quadrics_;
+  std::vector<int> component_;
+  std::vector<int> sizes_;
+  Eigen::Index alive_ = 0;
+  std::vector<int> fan_, otherFan_;
+  std::vector<std::pair<double, int>> candidates_;
+};
+
+Interpolation Collapsing::interpolation(const TriangleMesh& mesh, const std::vector<int>& number,
+                                        Eigen::Index vertexCount) {
+  // A vertex lies near the one that it was collapsed onto: from there over the proxy, always to
+  // the nearest face around the corners of the last one.
+  std::vector<int> start(static_cast<std::size_t>(vertexCount), -1);
+  for (int v = 0; v < static_cast<int>(vertexCount); ++v) start[at(v)] = number[at(root(v))];
+  const VertexCorners corners = vertexCorners(mesh.vertices.rows(), mesh.faces);
+  Faces faces(vertexCount, 3);
+  Points weights(vertexCount, 3);
+  forChunks(vertexCount, kChunk, [&](const Chunk& chunk) {
+    for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
+      const Vec3 p = x_.row(v).transpose();
+      double best = std::numeric_limits<double>::infinity();
+      int bestFace = -1;
+      Vec3 bestWeights = Vec3::Zero();
+      const auto visit = [&](int around) {
+        for (const int corner : corners.at(around)) {
+          const int f = corner / 3;
+          if (f == bestFace) continue;
+          const Vec3 a = mesh.vertices.row(mesh.faces(f, 0)).transpose();
+          const Vec3 b = mesh.vertices.row(mesh.faces(f, 1)).transpose();
+          const Vec3 c = mesh.vertices.row(mesh.faces(f, 2)).transpose();
+          const Vec3 w = nearestWeights(p, a, b, c);
+          const double distance = (w[0] * a + w[1] * b + w[2] * c - p).squaredNorm();
+          if (distance < best) {
+            best = distance;
+            bestFace = f;
+            bestWeights = w;
+          }
+        }
+      };
+      visit(start[static_cast<std::size_t>(v)]);
+      constexpr int kMostSteps = 16;
+      for (int step = 0; step < kMostSteps; ++step) {
+        const int last = bestFace;
+        for (const int around : Eigen::RowVector3i(mesh.faces.row(last))) visit(around);
+        if (bestFace == last) break;
+      }
+      faces.row(v) = mesh.faces.row(bestFace);
+      weights.row(v) = bestWeights.transpose();
+    }
+  });
+  return {std::move(faces), std::move(weights), mesh.vertices.rows()};
+}
+
+} // namespace
+
+Interpolation::Interpolation(Faces corners, Points weights, Eigen::Index proxySize)
+    : rows_(corners.rows()), cols_(proxySize), corners_(std::move(corners)),
+      weights_(std::move(weights)) {}
+
+Interpolation Interpolation::identity(Eigen::Index size) {
+  Interpolation result;
+  result.rows_ = size;
+  result.cols_ = size;
+  return result;
+}
+
+Vector Interpolation::operator*(const Vector& values) const {
+  if (isIdentity()) return values;
+  Vector result(rows_);
+  forChunks(rows_, 8 * kChunk, [&](const Chunk& chunk) {
+    for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
+      result[v] = weights_(v, 0) * values[corners_(v, 0)] +
+                  weights_(v, 1) * values[corners_(v, 1)] + weights_(v, 2) * values[corners_(v, 2)];
+    }
+  });
+  return result;
+}
+
+Points Interpolation::operator*(const Points& values) const {
+  if (isIdentity()) return values;
+  Points result(rows_, 3);
+  forChunks(rows_, 8 * kChunk, [&](const Chunk& chunk) {
+    for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
+      result.row(v) = weights_(v, 0) * values.row(corners_(v, 0)) +
+                      weights_(v, 1) * values.row(corners_(v, 1)) +
+                      weights_(v, 2) * values.row(corners_(v, 2));
+    }
+  });
+  return result;
+}
+
+Matrix Interpolation::transposeTimes(
+    const Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>&
+        values) const {
+  if (isIdentity()) return values;
+  // One sum a chunk, for the sums of two threads must not depend on who comes first.
+  const Eigen::Index length = std::max<Eigen::Index>(8 * kChunk, chunkCount(rows_, 16));
+  using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  std::vector<RowMatrix> parts(static_cast<std::size_t>(chunkCount(rows_, length)));
+  forChunks(rows_, length, [&](const Chunk& chunk) {
+    RowMatrix& part = parts[static_cast<std::size_t>(chunk.number)];
+    part.setZero(cols_, values.cols());
+    for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
+      for (int k = 0; k < 3; ++k) part.row(corners_(v, k)) += weights_(v, k) * values.row(v);
+    }
+  });
+  Matrix sum = Matrix::Zero(cols_, values.cols());
+  for (const RowMatrix& part : parts) sum += part;
+  return sum;
+}
+
+Proxy makeProxy(const Points& vertices, const Faces& faces, Eigen::Index size) {
+  if (static_cast<double>(vertices.rows()) >= kWorthwhile * static_cast<double>(size)) {
+    Collapsing surface(vertices, faces);
+    surface.reduceTo(size);
+    return surface.result(vertices.rows());
+  }
+  Proxy proxy{{vertices, faces}, {}, Interpolation::identity(vertices.rows())};
+  proxy.vertexOf.resize(static_cast<std::size_t>(vertices.rows()));
+  std::iota(proxy.vertexOf.begin(), proxy.vertexOf.end(), 0);
+  return proxy;
+}
+
+} // namespace massprops

@@ -1,0 +1,51 @@
+// A coarse copy of a surface, and functions on it carried over to the surface.
+#pragma once
+
+#include "core/types.h"
+
+#include <vector>
+
+namespace massprops {
+
+/// Values at a surface's vertices as weighted means of values at a proxy's vertices, at most three
+/// each: the matrix P of n rows and p columns, whose rows are positive and sum to 1.
+class Interpolation {
+public:
+  /// `corners`, `weights`: n×3
+  Interpolation(Faces corners, Points weights, Eigen::Index proxySize);
+  /// P = 1.
+  static Interpolation identity(Eigen::Index size);
+
+  Eigen::Index rows() const { return rows_; }
+  Eigen::Index cols() const { return cols_; }
+  bool isIdentity() const { return corners_.rows() == 0; }
+
+  Vector operator*(const Vector& values) const;
+  Points operator*(const Points& values) const;
+  /// PᵀY for Y n×m with few columns.
+  Matrix transposeTimes(const Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic,
+                                                             Eigen::RowMajor>>& values) const;
+
+private:
+  Interpolation() = default;
+  Eigen::Index rows_ = 0;
+  Eigen::Index cols_ = 0;
+  Faces corners_;
+  Points weights_;
+};
+
+struct Proxy {
+  /// Closed manifolds, as many as the surface has components; may cross themselves a little.
+  TriangleMesh mesh;
+  /// For every proxy vertex the vertex of the surface that it is.
+  std::vector<int> vertexOf;
+  /// The surface's vertices by the proxy's, at the points of the proxy next to them.
+  Interpolation interpolation;
+};
+
+/// Collapses edges until about `size` vertices are left, those first that change the shape least
+/// [GH97] and are shortest. The surface itself where it has not clearly more vertices.
+/// \pre closed manifold components
+Proxy makeProxy(const Points& vertices, const Faces& faces, Eigen::Index size);
+
+} // namespace massprops

@@ -1,0 +1,415 @@
+#include "core/triangle_tree.h"
+
+#include "core/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace massprops {
+namespace {
+
+constexpr Eigen::Index kChunk = 4096;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Leaves of a tree over so many triangles: the least power of two that leaves four for each.
+Eigen::Index leafCount(Eigen::Index triangles) {
+  Eigen::Index leaves = 1;
+  while (4 * leaves < triangles) leaves *= 2;
+  return leaves;
+}
+
+struct Centre {
+  float position[3];
+  int face;
+};
+
+/// Orders the centres for the leaves first … first + count − 1 of all `leaves`, which hold `all`
+/// triangles together.
+void cut(std::vector<Centre>& centres, Eigen::Index first, Eigen::Index count,
+         Eigen::Index leaves) {
+  if (count == 1) return;
+  const auto all = static_cast<Eigen::Index>(centres.size());
+  const auto place = [&](Eigen::Index leaf) { return centres.begin() + leaf * all / leaves; };
+  float lower[3] = {1e30F, 1e30F, 1e30F};
+  float upper[3] = {-1e30F, -1e30F, -1e30F};
+  for (auto c = place(first); c != place(first + count); ++c) {
+    for (int k = 0; k < 3; ++k) {
+      lower[k] = std::min(lower[k], c->position[k]);
+      upper[k] = std::max(upper[k], c->position[k]);
+    }
+  }
+  int axis = 0;
+  for (int k = 1; k < 3; ++k) {
+    if (upper[k] - lower[k] > upper[axis] - lower[axis]) axis = k;
+  }
+  const Eigen::Index half = count / 2;
+  std::nth_element(place(first), place(first + half), place(first + count),
+                   [axis](const Centre& a, const Centre& b) {
+                     return a.position[axis] < b.position[axis] ||
+                            (a.position[axis] == b.position[axis] && a.face < b.face);
+                   });
+  constexpr Eigen::Index kWorthAThread = 4096;
+  const auto left = [&] { cut(centres, first, half, leaves); };
+  const auto right = [&] { cut(centres, first + half, half, leaves); };
+  if (count == leaves && leaves >= kWorthAThread) {
+    inParallel(left, right);
+  } else {
+    left();
+    right();
+  }
+}
+
+float below(double x) {
+  const auto f = static_cast<float>(x);
+  return static_cast<double>(f) > x ? std::nextafter(f, -std::numeric_limits<float>::infinity())
+                                    : f;
+}
+
+float above(double x) {
+  return -below(-x);
+}
+
+Vec3 nearestOnTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 w = nearestWeights(p, a, b, c);
+  return w[0] * a + w[1] * b + w[2] * c;
+}
+
+/// [Eri05, Sec. 5.1.9]
+double squaredDistanceOfSegments(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
+  const Vec3 d1 = q - p;
+  const Vec3 d2 = s - r;
+  const Vec3 w = p - r;
+  const double a = d1.squaredNorm();
+  const double e = d2.squaredNorm();
+  const double f = d2.dot(w);
+  const double c = d1.dot(w);
+  const double b = d1.dot(d2);
+  const double denominator = a * e - b * b;
+  double t = 0.0;
+  double u = 0.0;
+  if (a > 0.0) {
+    // Nearly parallel: any point will do, for ends are compared with the other triangle as well.
+    if (denominator > 1e-14 * a * e) t = std::clamp((b * f - c * e) / denominator, 0.0, 1.0);
+    u = e > 0.0 ? (b * t + f) / e : 0.0;
+    if (!(u >= 0.0)) {
+      u = 0.0;
+      t = std::clamp(-c / a, 0.0, 1.0);
+    } else if (u > 1.0) {
+      u = 1.0;
+      t = std::clamp((b - c) / a, 0.0, 1.0);
+    }
+  } else if (e > 0.0) {
+    u = std::clamp(f / e, 0.0, 1.0);
+  }
+  return (w + t * d1 - u * d2).squaredNorm();
+}
+
+/// Whether an edge of t goes through the inside of the triangle (a, b, c).
+bool pierces(const Vec3 (&t)[3], const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 normal = (b - a).cross(c - a);
+  double side[3];
+  for (int k = 0; k < 3; ++k) side[k] = normal.dot(t[k] - a);
+  if ((side[0] > 0.0 && side[1] > 0.0 && side[2] > 0.0) ||
+      (side[0] < 0.0 && side[1] < 0.0 && side[2] < 0.0)) {
+    return false;
+  }
+  for (int k = 0; k < 3; ++k) {
+    const int n = (k + 1) % 3;
+    if (side[k] * side[n] > 0.0 || side[k] == side[n]) continue;
+    const Vec3 at = t[k] + side[k] / (side[k] - side[n]) * (t[n] - t[k]);
+    if (normal.dot((b - a).cross(at - a)) >= 0.0 && normal.dot((c - b).cross(at - b)) >= 0.0 &&
+        normal.dot((a - c).cross(at - c)) >= 0.0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+double squaredDistanceOfTriangles(const Vec3 (&s)[3], const Vec3 (&t)[3]) {
+  if (pierces(s, t[0], t[1], t[2]) || pierces(t, s[0], s[1], s[2])) return 0.0;
+  double least = kInfinity;
+  for (int i = 0; i < 3; ++i) {
+    least = std::min(least, (s[i] - nearestOnTriangle(s[i], t[0], t[1], t[2])).squaredNorm());
+    least = std::min(least, (t[i] - nearestOnTriangle(t[i], s[0], s[1], s[2])).squaredNorm());
+    for (int j = 0; j < 3; ++j) {
+      least =
+          std::min(least, squaredDistanceOfSegments(s[i], s[(i + 1) % 3], t[j], t[(j + 1) % 3]));
+    }
+  }
+  return least;
+}
+
+/// Whether a plane across `axis` separates the two by more than the bound: a quick way to be sure.
+bool isFartherAlong(const Vec3& axis, const Vec3 (&s)[3], const Vec3 (&t)[3], double squaredBound) {
+  double ofS[3];
+  double ofT[3];
+  for (int k = 0; k < 3; ++k) {
+    ofS[k] = axis.dot(s[k]);
+    ofT[k] = axis.dot(t[k]);
+  }
+  const double gap =
+      std::max(std::min({ofT[0], ofT[1], ofT[2]}) - std::max({ofS[0], ofS[1], ofS[2]}),
+               std::min({ofS[0], ofS[1], ofS[2]}) - std::max({ofT[0], ofT[1], ofT[2]}));
+  return gap > 0.0 && gap * gap * (1.0 - 1e-12) > squaredBound * axis.squaredNorm();
+}
+
+} // namespace
+
+Vec3 nearestWeights(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 ab = b - a;
+  const Vec3 ac = c - a;
+  const Vec3 ap = p - a;
+  const double d1 = ab.dot(ap);
+  const double d2 = ac.dot(ap);
+  if (d1 <= 0.0 && d2 <= 0.0) return {1.0, 0.0, 0.0};
+  const Vec3 bp = p - b;
+  const double d3 = ab.dot(bp);
+  const double d4 = ac.dot(bp);
+  if (d3 >= 0.0 && d4 <= d3) return {0.0, 1.0, 0.0};
+  const Vec3 cp = p - c;
+  const double d5 = ab.dot(cp);
+  const double d6 = ac.dot(cp);
+  if (d6 >= 0.0 && d5 <= d6) return {0.0, 0.0, 1.0};
+  // Twice the areas of the triangles that the foot makes with the sides, times the normal's length;
+  // from the vectors to the corners, for differences of the products above cancel on slivers.
+  const Vec3 normal = ab.cross(ac);
+  const double va = normal.dot(bp.cross(cp));
+  const double vb = normal.dot(cp.cross(ap));
+  const double vc = normal.dot(ap.cross(bp));
+  if (va > 0.0 && vb > 0.0 && vc > 0.0) {
+    const double sum = va + vb + vc;
+    return {va / sum, vb / sum, vc / sum};
+  }
+  // Outside: the nearest point of the three sides.
+  const auto along = [](double from, double to) {
+    return from + to > 0.0 ? std::clamp(from / (from + to), 0.0, 1.0) : 0.0;
+  };
+  const double onAb = along(d1, -d3);
+  const double onAc = along(d2, -d6);
+  const double onBc = along(d4 - d3, d5 - d6);
+  const Vec3 candidates[3] = {
+      {1.0 - onAb, onAb, 0.0}, {1.0 - onAc, 0.0, onAc}, {0.0, 1.0 - onBc, onBc}};
+  int best = 0;
+  double least = kInfinity;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3& w = candidates[i];
+    const double distance = (w[0] * ap + w[1] * bp + w[2] * cp).squaredNorm();
+    if (distance < least) {
+      least = distance;
+      best = i;
+    }
+  }
+  return candidates[best];
+}
+
+std::vector<int> spatialOrder(const Points& vertices, const Faces& faces) {
+  std::vector<Centre> centres(static_cast<std::size_t>(faces.rows()));
+  // Relative to the box, for a float has few digits.
+  const Eigen::RowVector3d origin = vertices.rows() > 0
+                                        ? Eigen::RowVector3d(vertices.colwise().minCoeff())
+                                        : Eigen::RowVector3d::Zero();
+  const double size =
+      vertices.rows() > 0 ? (vertices.colwise().maxCoeff() - origin).maxCoeff() : 0.0;
+  const double scale = size > 0.0 ? 1.0 / size : 0.0;
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    const Eigen::RowVector3d sum =
+        vertices.row(faces(f, 0)) + vertices.row(faces(f, 1)) + vertices.row(faces(f, 2));
+    const Eigen::RowVector3f centre = ((sum - 3.0 * origin) * scale).cast<float>();
+    centres[static_cast<std::size_t>(f)] = {{centre[0], centre[1], centre[2]}, static_cast<int>(f)};
+  }
+  const Eigen::Index leaves = leafCount(faces.rows());
+  cut(centres, 0, leaves, leaves);
+  std::vector<int> order(centres.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = centres[i].face;
+  return order;
+}
+
+TriangleTree::TriangleTree(const Points& vertices, const Faces& faces, Order order)
+    : vertices_(vertices), faces_(faces), leaves_(leafCount(faces.rows())) {
+  if (order == Order::Any) order_ = spatialOrder(vertices, faces);
+  boxes_.resize(static_cast<std::size_t>(2 * leaves_));
+  forChunks(leaves_, kChunk, [&](const Chunk& chunk) {
+    for (Eigen::Index leaf = chunk.begin; leaf < chunk.end; ++leaf) {
+      boxes_[static_cast<std::size_t>(leaves_ + leaf)] =
+          boxOf(firstPlace(leaf), firstPlace(leaf + 1));
+    }
+  });
+  for (Eigen::Index node = leaves_ - 1; node >= 1; --node) {
+    const Box& a = boxes_[static_cast<std::size_t>(2 * node)];
+    const Box& b = boxes_[static_cast<std::size_t>(2 * node + 1)];
+    Box& box = boxes_[static_cast<std::size_t>(node)];
+    for (int k = 0; k < 3; ++k) {
+      box.lower[k] = std::min(a.lower[k], b.lower[k]);
+      box.upper[k] = std::max(a.upper[k], b.upper[k]);
+    }
+  }
+}
+
+TriangleTree::Box TriangleTree::boxOf(Eigen::Index begin, Eigen::Index end) const {
+  Vec3 lower = Vec3::Constant(kInfinity);
+  Vec3 upper = Vec3::Constant(-kInfinity);
+  for (Eigen::Index i = begin; i < end; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 p = corner(faceAt(i), k);
+      lower = lower.cwiseMin(p);
+      upper = upper.cwiseMax(p);
+    }
+  }
+  Box box{};
+  for (int k = 0; k < 3; ++k) {
+    box.lower[k] = below(lower[k]);
+    box.upper[k] = above(upper[k]);
+  }
+  return box;
+}
+
+double TriangleTree::squaredDistanceTo(const Box& box, const Vec3& p) const {
+  double sum = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    const double outside = std::max({0.0, box.lower[k] - p[k], p[k] - box.upper[k]});
+    sum += outside * outside;
+  }
+  return sum;
+}
+
+TriangleTree::Hit TriangleTree::nearest(const Vec3& p, double squaredBound, int hintFace) const {
+  Hit best;
+  best.squaredDistance = squaredBound;
+  const auto visit = [&](int f) {
+    const Vec3 point = nearestOnTriangle(p, corner(f, 0), corner(f, 1), corner(f, 2));
+    const double distance = (p - point).squaredNorm();
+    if (distance < best.squaredDistance) best = {distance, f, point};
+  };
+  if (hintFace >= 0) visit(hintFace);
+  struct Entry {
+    Eigen::Index node;
+    double distance;
+  };
+  Entry stack[64];
+  int size = 0;
+  stack[size++] = {1, squaredDistanceTo(boxes_[1], p)};
+  while (size > 0) {
+    const Entry e = stack[--size];
+    if (!(e.distance < best.squaredDistance)) continue;
+    if (e.node >= leaves_) {
+      const Eigen::Index end = firstPlace(e.node - leaves_ + 1);
+      for (Eigen::Index i = firstPlace(e.node - leaves_); i < end; ++i) visit(faceAt(i));
+      continue;
+    }
+    Entry near{2 * e.node, squaredDistanceTo(boxes_[static_cast<std::size_t>(2 * e.node)], p)};
+    Entry far{2 * e.node + 1,
+              squaredDistanceTo(boxes_[static_cast<std::size_t>(2 * e.node + 1)], p)};
+    if (far.distance < near.distance) std::swap(near, far);
+    if (far.distance < best.squaredDistance) stack[size++] = far;
+    if (near.distance < best.squaredDistance) stack[size++] = near;
+  }
+  return best;
+}
+
+double TriangleTree::squaredDistance(const Vec3& a, const Vec3& b, const Vec3& c,
+                                     double squaredBound) const {
+  const Vec3 s[3] = {a, b, c};
+  const Vec3 normal = (b - a).cross(c - a);
+  const Vec3 lower = a.cwiseMin(b).cwiseMin(c);
+  const Vec3 upper = a.cwiseMax(b).cwiseMax(c);
+  const auto gap = [&](Eigen::Index node) {
+    const Box& box = boxes_[static_cast<std::size_t>(node)];
+    double sum = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      const double outside = std::max({0.0, box.lower[k] - upper[k], lower[k] - box.upper[k]});
+      sum += outside * outside;
+    }
+    return sum;
+  };
+  double least = squaredBound;
+  Eigen::Index stack[64];
+  int size = 0;
+  stack[size++] = 1;
+  while (size > 0) {
+    const Eigen::Index node = stack[--size];
+    if (!(gap(node) < least)) continue;
+    if (node < leaves_) {
+      stack[size++] = 2 * node + 1;
+      stack[size++] = 2 * node;
+      continue;
+    }
+    const Eigen::Index end = firstPlace(node - leaves_ + 1);
+    for (Eigen::Index i = firstPlace(node - leaves_); i < end; ++i) {
+      const int f = faceAt(i);
+      const Vec3 t[3] = {corner(f, 0), corner(f, 1), corner(f, 2)};
+      if (isFartherAlong(normal, s, t, least) ||
+          isFartherAlong((t[0] + t[1] + t[2]) - (s[0] + s[1] + s[2]), s, t, least) ||
+          isFartherAlong((t[1] - t[0]).cross(t[2] - t[0]), s, t, least)) {
+        continue;
+      }
+      least = std::min(least, squaredDistanceOfTriangles(s, t));
+    }
+  }
+  return least;
+}
+
+double TriangleTree::firstHit(const Vec3& start, const Vec3& direction, double limit) const {
+  constexpr double kSlack = 1e-9;
+  double best = limit;
+  const Vec3 inverse = direction.cwiseInverse();
+  const auto entry = [&](Eigen::Index node) {
+    const Box& box = boxes_[static_cast<std::size_t>(node)];
+    double first = 0.0;
+    double last = best;
+    for (int k = 0; k < 3; ++k) {
+      if (direction[k] == 0.0) {
+        if (start[k] < box.lower[k] || start[k] > box.upper[k]) return kInfinity;
+        continue;
+      }
+      const double s = (box.lower[k] - start[k]) * inverse[k];
+      const double t = (box.upper[k] - start[k]) * inverse[k];
+      first = std::max(first, std::min(s, t));
+      last = std::min(last, std::max(s, t));
+    }
+    return first <= last * (1.0 + 1e-12) + 1e-15 ? first : kInfinity;
+  };
+  const auto visit = [&](int f) {
+    const Vec3 a = corner(f, 0);
+    const Vec3 b = corner(f, 1);
+    const Vec3 c = corner(f, 2);
+    if (a == start || b == start || c == start) return;
+    const Vec3 ab = b - a;
+    const Vec3 ac = c - a;
+    const Vec3 q = direction.cross(ac);
+    const double determinant = ab.dot(q);
+    if (!(std::abs(determinant) > 1e-12 * ab.norm() * ac.norm())) return;
+    const Vec3 s = start - a;
+    const double u = s.dot(q) / determinant;
+    if (!(u >= -kSlack && u <= 1.0 + kSlack)) return;
+    const Vec3 r = s.cross(ab);
+    const double v = direction.dot(r) / determinant;
+    if (!(v >= -kSlack && u + v <= 1.0 + kSlack)) return;
+    const double t = ac.dot(r) / determinant;
+    if (t >= 0.0 && t < best) best = t;
+  };
+  struct Entry {
+    Eigen::Index node;
+    double first;
+  };
+  Entry stack[64];
+  int size = 0;
+  stack[size++] = {1, entry(1)};
+  while (size > 0) {
+    const Entry e = stack[--size];
+    if (!(e.first < best)) continue;
+    if (e.node >= leaves_) {
+      const Eigen::Index end = firstPlace(e.node - leaves_ + 1);
+      for (Eigen::Index i = firstPlace(e.node - leaves_); i < end; ++i) visit(faceAt(i));
+      continue;
+    }
+    Entry near{2 * e.node, entry(2 * e.node)};
+    Entry far{2 * e.node + 1, entry(2 * e.node + 1)};
+    if (far.first < near.first) std::swap(near, far);
+    if (far.first < best) stack[size++] = far;
+    if (near.first < best) stack[size++] = near;
+  }
+  return best < limit ? best : kInfinity;
+}
+
+} // namespace massprops

@@ -1,0 +1,167 @@
+// A coarse copy carries smooth functions, keeps the surface's topology, and nothing depends on the
+// number of threads.
+#include "core/proxy.h"
+
+#include "checks.h"
+#include "core/components.h"
+#include "core/moments.h"
+#include "core/parallel.h"
+#include "core/pipeline.h"
+#include "core/validity.h"
+#include "shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+namespace massprops::testing {
+namespace {
+
+/// More threads than cores, and back.
+class ThreadCount {
+public:
+  explicit ThreadCount(int count) : before_(threadCount()) { setThreadCount(count); }
+  ~ThreadCount() { setThreadCount(before_); }
+  ThreadCount(const ThreadCount&) = delete;
+  ThreadCount& operator=(const ThreadCount&) = delete;
+
+private:
+  int before_;
+};
+
+Eigen::Index eulerCharacteristic(const TriangleMesh& mesh) {
+  return mesh.vertices.rows() - mesh.faces.rows() / 2; // closed: 3 faces have 2 edges each
+}
+
+TEST(Proxy, HasTheSizeAskedForAndTheTopologyOfTheSurface) {
+  for (const TriangleMesh& mesh :
+       {sphere(40), torus(1, 0.3, 120, 60),
+        joined(sphere(20), transformed(sphere(20), Mat3::Identity(), {3, 0, 0}))}) {
+    const Proxy proxy = makeProxy(mesh.vertices, mesh.faces, 600);
+    EXPECT_EQ(proxy.mesh.vertices.rows(), 600);
+    EXPECT_TRUE(isClosedAndOriented(proxy.mesh));
+    EXPECT_EQ(eulerCharacteristic(proxy.mesh), eulerCharacteristic(mesh));
+    EXPECT_EQ(connectedComponents(600, proxy.mesh.faces).size(),
+              connectedComponents(mesh.vertices.rows(), mesh.faces).size());
+  }
+}
+
+TEST(Proxy, IsTheSurfaceItselfWhereThatIsCoarse) {
+  const TriangleMesh mesh = blob(8);
+  const Proxy proxy = makeProxy(mesh.vertices, mesh.faces, 600);
+  EXPECT_EQ(proxy.mesh.vertices, mesh.vertices);
+  EXPECT_TRUE(proxy.interpolation.isIdentity());
+}
+
+TEST(Proxy, HasVerticesOfTheSurfaceAndNearlyItsVolume) {
+  const TriangleMesh mesh = blob(40);
+  const Proxy proxy = makeProxy(mesh.vertices, mesh.faces, 1000);
+  for (std::size_t i = 0; i < proxy.vertexOf.size(); ++i) {
+    EXPECT_EQ(proxy.mesh.vertices.row(static_cast<Eigen::Index>(i)),
+              mesh.vertices.row(proxy.vertexOf[i]));
+  }
+  // Edges of length 0.13 on curvatures of about 1 cut off 1/8·0.13² of the radius.
+  EXPECT_NEAR(moments(proxy.mesh.vertices, proxy.mesh.faces)[0] /
+                  moments(mesh.vertices, mesh.faces)[0],
+              1.0, 0.01);
+}
+
+TEST(Interpolation, ReproducesConstantsAndNearlyThePositions) {
+  const TriangleMesh mesh = blob(40);
+  const Proxy proxy = makeProxy(mesh.vertices, mesh.faces, 1000);
+  const Vector ones = proxy.interpolation * Vector(Vector::Ones(1000));
+  EXPECT_LT((ones.array() - 1.0).abs().maxCoeff(), 1e-14);
+  const Points positions = proxy.interpolation * proxy.mesh.vertices;
+  // A few times the depth of an arc over an edge.
+  EXPECT_LT((positions - mesh.vertices).rowwise().norm().maxCoeff(), 0.02);
+}
+
+TEST(Interpolation, HasTheTransposeOfItself) {
+  const TriangleMesh mesh = blob(40);
+  const Proxy proxy = makeProxy(mesh.vertices, mesh.faces, 1000);
+  Random random(5);
+  const Vector coarse = random.vector(1000);
+  const Vector fine = random.vector(mesh.vertices.rows());
+  const Matrix back = proxy.interpolation.transposeTimes(fine);
+  // Rounding of 16,000 terms of order one.
+  EXPECT_NEAR(fine.dot(proxy.interpolation * coarse), back.col(0).dot(coarse), 1e-10);
+}
+
+// ---------------------------------------------------------------- threads
+
+TEST(ForChunks, VisitsEveryIndexOnceWithAnyNumberOfThreads) {
+  for (const int threads : {1, 2, 5}) {
+    const ThreadCount count(threads);
+    std::vector<int> visits(1003, 0);
+    forChunks(1003, 10, [&](const Chunk& chunk) {
+      EXPECT_EQ(chunk.begin, 10 * chunk.number);
+      for (Eigen::Index i = chunk.begin; i < chunk.end; ++i) ++visits[static_cast<std::size_t>(i)];
+    });
+    EXPECT_EQ(visits, std::vector<int>(1003, 1));
+  }
+}
+
+TEST(ForChunks, PassesAnExceptionOn) {
+  EXPECT_THROW(forChunks(100, 1,
+                         [](const Chunk& chunk) {
+                           if (chunk.number == 57) throw std::runtime_error("57");
+                         }),
+               std::runtime_error);
+}
+
+TEST(Threads, DoNotChangeASingleBitOfTheCavity) {
+  // Large enough for a proxy and for the optimisation on it.
+  const TriangleMesh mesh = transformed(blob(38), someRotation());
+  Options options;
+  options.radiusX = options.radiusY = 0.5;
+  const auto cavity = [&](int threads) {
+    const ThreadCount count(threads);
+    return optimizeMassProperties(mesh, options).inner;
+  };
+  const TriangleMesh one = cavity(1);
+  ASSERT_GT(one.faces.rows(), 0);
+  for (const int threads : {2, 4}) {
+    const TriangleMesh other = cavity(threads);
+    EXPECT_EQ(one.vertices, other.vertices);
+    EXPECT_EQ(one.faces, other.faces);
+  }
+}
+
+// ---------------------------------------------------------------- crossings
+
+TEST(SelfIntersections, AreThoseThatAllPairsHaveAlsoOnWrinkledSurfaces) {
+  // From smooth, where whole patches are proved at once, to crumpled, where nearly none is.
+  int crossingOnes = 0;
+  for (const double wrinkle : {0.0, 0.02, 0.05, 0.08, 0.15, 0.3}) {
+    for (std::uint32_t seed = 1; seed <= 4; ++seed) {
+      const TriangleMesh mesh = jittered(blob(10), wrinkle, seed);
+      const bool crosses = intersectingPairs(mesh) > 0;
+      EXPECT_EQ(!selfIntersectingFaces(mesh.vertices, mesh.faces).empty(), crosses) << wrinkle;
+      crossingOnes += crosses ? 1 : 0;
+    }
+  }
+  EXPECT_GT(crossingOnes, 4);
+  EXPECT_LT(crossingOnes, 20);
+}
+
+TEST(SelfIntersections, AreFoundWhereDistantPartsMeet) {
+  // Two lobes whose tips reach into each other: each patch by itself is smooth.
+  const TriangleMesh horseshoe = sphere(30);
+  for (const double gap : {0.05, -0.05}) {
+    TriangleMesh bent = horseshoe;
+    for (Eigen::Index v = 0; v < bent.vertices.rows(); ++v) {
+      // A long ellipsoid wound around the z axis, its ends `gap` apart.
+      const double angle = (3.14159265358979 - 0.5 * gap) * bent.vertices(v, 0);
+      const double radius = 1.0 + 0.3 * bent.vertices(v, 1);
+      bent.vertices.row(v) << radius * std::cos(angle), radius * std::sin(angle),
+          0.3 * bent.vertices(v, 2);
+    }
+    EXPECT_EQ(selfIntersectingFaces(bent.vertices, bent.faces).empty(), gap > 0.0);
+    EXPECT_EQ(intersectingPairs(bent) == 0, gap > 0.0);
+  }
+}
+
+} // namespace
+} // namespace massprops::testing
