@@ -46,16 +46,31 @@ Clearance clearanceOf(const Points& vertices, const Faces& faces, const Triangle
     isUsed[static_cast<std::size_t>(faces.data()[i])] = 1;
   }
   Vector squared = Vector::Constant(vertices.rows(), kInfinity);
-  forChunks(vertices.rows(), kChunk, [&](const Chunk& chunk) {
-    int hint = -1;
-    for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
-      if (isUsed[static_cast<std::size_t>(v)] == 0) continue;
-      const TriangleTree::Hit hit = other.nearest(vertices.row(v).transpose(), kInfinity, hint);
-      squared[v] = hit.squaredDistance;
-      hint = hit.face;
-      result.nearestFace[static_cast<std::size_t>(v)] = hit.face;
-    }
-  });
+  double exact = 4.0 * horizon * horizon;
+  const auto measure = [&] {
+    forChunks(vertices.rows(), kChunk, [&](const Chunk& chunk) {
+      int hint = -1;
+      for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
+        if (isUsed[static_cast<std::size_t>(v)] == 0) continue;
+        const TriangleTree::Hit hit =
+            other.nearest(vertices.row(v).transpose(), kInfinity, hint, exact);
+        squared[v] = hit.squaredDistance;
+        hint = hit.face;
+        result.nearestFace[static_cast<std::size_t>(v)] = hit.face;
+      }
+    });
+  };
+  measure();
+  if (squared.minCoeff() > exact) {
+    // All is far away, so that the least of all is not known yet.
+    exact = squared.minCoeff();
+    measure();
+  }
+  constexpr double kSlackSquared = TriangleTree::kSlack * TriangleTree::kSlack;
+  const auto surely = [&](double squaredDistance) {
+    return squaredDistance > exact ? std::max(exact, squaredDistance / kSlackSquared)
+                                   : squaredDistance;
+  };
 
   // At y = Σλ_i y_i the other surface is at least d away, d² ≥ Σλ_i d_i² − Σλ_i|y_i − y|²: a point
   // nearer than that to y would be nearer than d_i to some corner, for Σλ_i|p − y_i|² = |p − y|² +
@@ -78,7 +93,7 @@ Clearance clearanceOf(const Points& vertices, const Faces& faces, const Triangle
       const double loss =
           squaredRadius((b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm());
       constexpr double kRounding = 1e-12;
-      if (corners - loss >= wanted * (1.0 + kRounding)) continue;
+      if (surely(corners) - loss >= wanted * (1.0 + kRounding)) continue;
       const double least = other.squaredDistance(a, b, c, std::min(corners, wanted));
       if (least < corners) {
         near[static_cast<std::size_t>(chunk.number)].push_back({static_cast<int>(f), least});

@@ -13,7 +13,8 @@ Vector chords(const TriangleTree& surface, const Points& points, const Points& d
 struct Clearance {
   /// For every vertex that a face uses: the least distance of the triangles around it from the
   /// other surface; infinity for other vertices. Below the horizon, and for the least of all, exact
-  /// up to rounding; above it the least over the triangles' corners.
+  /// up to rounding; above it the least over the triangles' corners, and beyond twice the horizon
+  /// up to 5 % more than that.
   Vector distance;
   double least = 0.0;           ///< of all; infinity without faces
   std::vector<int> crossing;    ///< faces that cross the other surface, ascending

@@ -273,13 +273,19 @@ double TriangleTree::squaredDistanceTo(const Box& box, const Vec3& p) const {
   return sum;
 }
 
-TriangleTree::Hit TriangleTree::nearest(const Vec3& p, double squaredBound, int hintFace) const {
+TriangleTree::Hit TriangleTree::nearest(const Vec3& p, double squaredBound, int hintFace,
+                                        double squaredExact) const {
   Hit best;
   best.squaredDistance = squaredBound;
+  // Boxes at this distance or farther away are of no interest.
+  double reach = squaredBound;
   const auto visit = [&](int f) {
     const Vec3 point = nearestOnTriangle(p, corner(f, 0), corner(f, 1), corner(f, 2));
     const double distance = (p - point).squaredNorm();
-    if (distance < best.squaredDistance) best = {distance, f, point};
+    if (!(distance < best.squaredDistance)) return;
+    best = {distance, f, point};
+    reach =
+        distance > squaredExact ? std::max(squaredExact, distance / (kSlack * kSlack)) : distance;
   };
   if (hintFace >= 0) visit(hintFace);
   struct Entry {
@@ -291,7 +297,7 @@ TriangleTree::Hit TriangleTree::nearest(const Vec3& p, double squaredBound, int 
   stack[size++] = {1, squaredDistanceTo(boxes_[1], p)};
   while (size > 0) {
     const Entry e = stack[--size];
-    if (!(e.distance < best.squaredDistance)) continue;
+    if (!(e.distance < reach)) continue;
     if (e.node >= leaves_) {
       const Eigen::Index end = firstPlace(e.node - leaves_ + 1);
       for (Eigen::Index i = firstPlace(e.node - leaves_); i < end; ++i) visit(faceAt(i));
@@ -301,8 +307,8 @@ TriangleTree::Hit TriangleTree::nearest(const Vec3& p, double squaredBound, int 
     Entry far{2 * e.node + 1,
               squaredDistanceTo(boxes_[static_cast<std::size_t>(2 * e.node + 1)], p)};
     if (far.distance < near.distance) std::swap(near, far);
-    if (far.distance < best.squaredDistance) stack[size++] = far;
-    if (near.distance < best.squaredDistance) stack[size++] = near;
+    if (far.distance < reach) stack[size++] = far;
+    if (near.distance < reach) stack[size++] = near;
   }
   return best;
 }
@@ -350,7 +356,7 @@ double TriangleTree::squaredDistance(const Vec3& a, const Vec3& b, const Vec3& c
 }
 
 double TriangleTree::firstHit(const Vec3& start, const Vec3& direction, double limit) const {
-  constexpr double kSlack = 1e-9;
+  constexpr double kGrown = 1e-9;
   double best = limit;
   const Vec3 inverse = direction.cwiseInverse();
   const auto entry = [&](Eigen::Index node) {
@@ -381,10 +387,10 @@ double TriangleTree::firstHit(const Vec3& start, const Vec3& direction, double l
     if (!(std::abs(determinant) > 1e-12 * ab.norm() * ac.norm())) return;
     const Vec3 s = start - a;
     const double u = s.dot(q) / determinant;
-    if (!(u >= -kSlack && u <= 1.0 + kSlack)) return;
+    if (!(u >= -kGrown && u <= 1.0 + kGrown)) return;
     const Vec3 r = s.cross(ab);
     const double v = direction.dot(r) / determinant;
-    if (!(v >= -kSlack && u + v <= 1.0 + kSlack)) return;
+    if (!(v >= -kGrown && u + v <= 1.0 + kGrown)) return;
     const double t = ac.dot(r) / determinant;
     if (t >= 0.0 && t < best) best = t;
   };

@@ -28,9 +28,14 @@ public:
     int face = -1; ///< −1: nothing within the bound
     Vec3 point = Vec3::Zero();
   };
-  /// The point of the surface next to `p`, if it is nearer than `bound`.
+  /// The point of the surface next to `p`, if it is nearer than the bound; quicker with a face that
+  /// is known to be near. What is not within `squaredExact` may be farther than the nearest point
+  /// by 5 %: from the middle of a limb all of it is equally far, and looking for the nearest is
+  /// slow.
   Hit nearest(const Vec3& p, double squaredBound = std::numeric_limits<double>::infinity(),
-              int hintFace = -1) const;
+              int hintFace = -1,
+              double squaredExact = std::numeric_limits<double>::infinity()) const;
+  static constexpr double kSlack = 1.05;
 
   /// Squared distance of the triangle (a, b, c) from the surface if below `squaredBound`, else
   /// that; 0 where they cross.
