@@ -533,13 +533,18 @@ double tippingAngleOf(const PropertyCase& c, const Upright& frame, const Body& b
     }
     return farthest - u.dot(centre.head<2>());
   };
+  // One valley may look lower between two samples and be higher at its bottom: all are searched.
+  constexpr int kSamples = 7200;
   double best = 0.0;
-  double step = 2 * kPi / 7200;
-  for (int i = 0; i < 7200; ++i)
-    if (margin(i * step) < margin(best)) best = i * step;
-  for (int round = 0; round < 40; ++round, step /= 2)
-    for (const double next : {best - step, best + step})
-      if (margin(next) < margin(best)) best = next;
+  for (int i = 0; i < kSamples; ++i) {
+    double step = 2 * kPi / kSamples;
+    double lowest = i * step;
+    if (margin(lowest - step) < margin(lowest) || margin(lowest + step) < margin(lowest)) continue;
+    for (int round = 0; round < 40; ++round, step /= 2)
+      for (const double next : {lowest - step, lowest + step})
+        if (margin(next) < margin(lowest)) lowest = next;
+    if (margin(lowest) < margin(best)) best = lowest;
+  }
   return std::atan2(margin(best), centre.z()) * 180 / kPi;
 }
 
