@@ -23,8 +23,8 @@ namespace {
 /// Of the diagonal: smooths the noise of the skeleton's correspondence and keeps its shape.
 constexpr double kDiffusionLength = 0.02;
 
-/// Vertices of the proxy. With fewer, the skeleton of models with thin limbs costs more than 2 % of
-/// what hollowing gains.
+/// Vertices of the proxy. On models with thin limbs its skeleton costs some per cent of what
+/// hollowing gains, with a scatter that falls slowly with its size (benchmarks/results.md).
 Eigen::Index proxySize(Eigen::Index vertexCount) {
   constexpr double kShare = 0.46;
   constexpr double kLeast = 2000.0;
