@@ -56,8 +56,10 @@ public:
         const int n = 1 << (part.level - 1);
         const Vec3 first = part.centre - Vec3::Constant(0.5 * (edge - edge_));
         for (int j = 0; j < n * n * n; ++j) {
-          result.push_back(cubeMoments(first + edge_ * Vec3(j % n, j / n % n, j / (n * n)), edge_,
-                                       edge_ * edge_ * edge_));
+          const int layer = j / n;
+          const Eigen::Vector3i place(j % n, layer % n, layer / n);
+          result.emplace_back(
+              cubeMoments(first + edge_ * place.cast<double>(), edge_, edge_ * edge_ * edge_));
         }
         continue;
       }
@@ -67,7 +69,7 @@ public:
       const double width = edge * inwards.cwiseAbs().sum();
       const double share = std::clamp(0.5 + (depth - wall_) / width, 0.0, 1.0);
       if (share == 0.0) continue;
-      if (part.cell != cell) result.push_back(Moments::Zero());
+      if (part.cell != cell) result.emplace_back(Moments::Zero());
       cell = part.cell;
       result.back() += cubeMoments(part.centre + 0.5 * width * (1.0 - share) * inwards, edge,
                                    share * edge * edge * edge);
@@ -145,12 +147,19 @@ AdmissibleCells admissibleCells(const Points& vertices, const Faces& faces,
                                 const TriangleMesh& sides, double wall, int cells) {
   const Vec3 low = vertices.colwise().minCoeff();
   const Vec3 high = vertices.colwise().maxCoeff();
-  RegionSampler sampler(vertices, faces, wall, std::cbrt((high - low).prod() / cells));
+  const Vec3 extent = high - low;
+  if (2.0 * wall >= extent.minCoeff()) return AdmissibleCells(0, 10);
+  // Sheets of almost no thickness would need cells without number.
+  constexpr double kMostAlongASide = 400.0;
+  RegionSampler sampler(
+      vertices, faces, wall,
+      std::max(std::cbrt(extent.prod() / cells), extent.maxCoeff() / kMostAlongASide));
   const double step = sampler.topEdge();
-  for (double x = low.x() + 0.5 * step; x < high.x() + 0.5 * step; x += step) {
-    for (double y = low.y() + 0.5 * step; y < high.y() + 0.5 * step; y += step) {
-      for (double z = low.z() + 0.5 * step; z < high.z() + 0.5 * step; z += step) {
-        sampler.add({x, y, z});
+  const Eigen::Array3i counts = ((high - low) / step).array().ceil().max(1.0).cast<int>();
+  for (int i = 0; i < counts.x(); ++i) {
+    for (int j = 0; j < counts.y(); ++j) {
+      for (int k = 0; k < counts.z(); ++k) {
+        sampler.add(low + step * (Vec3(i + 0.5, j + 0.5, k + 0.5)));
       }
     }
   }

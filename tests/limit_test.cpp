@@ -69,6 +69,11 @@ TEST(AdmissibleCells, AreNoneWhereTheWallIsTooThick) {
   EXPECT_EQ(admissibleCells(outer.vertices, outer.faces, outer, 0.6).rows(), 0);
 }
 
+TEST(AdmissibleCells, AreBoundedInNumberForSheetsOfAlmostNoThickness) {
+  const TriangleMesh sheet = box({1.0, 1.0, 1e-12}, 4);
+  EXPECT_LT(admissibleCells(sheet.vertices, sheet.faces, sheet, 1e-14).rows(), 1000000);
+}
+
 TEST(Limit, OfAStandingBoxIsHollowAboveItsCentreOfMass) {
   const double wall = 0.05;
   const double side = 1.0;
