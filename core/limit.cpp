@@ -148,7 +148,7 @@ AdmissibleCells admissibleCells(const Points& vertices, const Faces& faces,
   const Vec3 low = vertices.colwise().minCoeff();
   const Vec3 high = vertices.colwise().maxCoeff();
   const Vec3 extent = high - low;
-  if (2.0 * wall >= extent.minCoeff()) return AdmissibleCells(0, 10);
+  if (2.0 * wall >= extent.minCoeff()) return {};
   // Sheets of almost no thickness would need cells without number.
   constexpr double kMostAlongASide = 400.0;
   RegionSampler sampler(
