@@ -221,20 +221,32 @@ OptimizeResult minimize(const Problem& problem, const Vector& start,
   solver.set_upper_bounds(options.range);
   solver.set_ftol_abs(options.objectiveTolerance);
   solver.set_maxeval(options.maxEvaluations);
-  std::vector<double> x(start.data(), start.data() + start.size());
-  for (double& value : x) value = std::clamp(value, -options.range, options.range);
-  double objective = 0.0;
+  // SLSQP may run out of evaluations on its way to the constraints: it goes on from the best point
+  // while that comes nearer to them.
+  constexpr int kMostPasses = 4;
+  constexpr double kNearer = 0.7;
   std::string stopReason;
-  try {
-    stopReason = describe(solver.optimize(x, objective));
-  } catch (const nlopt::roundoff_limited&) {
-    stopReason = "converged to rounding";
-  } catch (const std::runtime_error&) {
-    // SLSQP gives up on a search direction it cannot improve along, which also happens at an
-    // optimum; the best point seen stands, and its constraints are checked by the caller.
-    stopReason = "no further descent";
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    const double violationBefore = scaled.best().violation;
+    const Vector from = pass == 0 ? start : scaled.best().x;
+    std::vector<double> x(from.data(), from.data() + from.size());
+    for (double& value : x) value = std::clamp(value, -options.range, options.range);
+    double objective = 0.0;
+    try {
+      stopReason = describe(solver.optimize(x, objective));
+    } catch (const nlopt::roundoff_limited&) {
+      stopReason = "converged to rounding";
+    } catch (const std::runtime_error&) {
+      // SLSQP gives up on a search direction it cannot improve along, which also happens at an
+      // optimum; the best point seen stands, and its constraints are checked by the caller.
+      stopReason = "no further descent";
+    }
+    restoreFeasibility(scaled, options);
+    const double violation = scaled.best().violation;
+    if (violation <= options.feasibility || (pass > 0 && violation > kNearer * violationBefore)) {
+      break;
+    }
   }
-  restoreFeasibility(scaled, options);
   OptimizeResult result = scaled.best();
   result.stopReason = stopReason;
   return result;

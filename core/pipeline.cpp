@@ -175,7 +175,9 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
     Submesh inner = submesh(representable(toModel(piece.frame, inSolidOrder(piece, cavity.inner))),
                             inSolidOrder(piece, cavity.cavity.faces));
     result.inner = std::move(inner.mesh);
-    result.inner.faces.col(1).swap(result.inner.faces.col(2));
+    if (result.inner.faces.rows() > 0) {
+      result.inner.faces.col(1).swap(result.inner.faces.col(2));
+    }
     result.innerWall =
         inSolidOrder(piece, cavity.inspection.wall)(inner.vertexOf) * piece.frame.length;
     if (task.outer || piece.cavities.faces.rows() > 0) {
