@@ -10,5 +10,5 @@ rm -rf "$work"
 mkdir -p "$work" build/fuzz/findings
 # New inputs go into the first folder.
 exec build/fuzz/tests/fuzz/fuzz_mesh "$work" tests/fuzz/corpus \
-  -max_total_time="$1" -timeout=120 -rss_limit_mb=3000 -max_len=1024 -len_control=0 -print_final_stats=1 \
+  -max_total_time="$1" -timeout=600 -rss_limit_mb=3000 -max_len=1024 -len_control=0 -print_final_stats=1 \
   -artifact_prefix=build/fuzz/findings/
