@@ -4,19 +4,15 @@
 #include "core/parallel.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Side_of_triangle_mesh.h>
-#include <CGAL/Surface_mesh.h>
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 namespace massprops {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
 /// Triangles that are looked at together.
 constexpr Eigen::Index kBlock = 64;
@@ -24,21 +20,6 @@ constexpr Eigen::Index kBlock = 64;
 constexpr Eigen::Index kMostChunks = 16;
 /// Share of the product of two lengths: far above the rounding of a determinant.
 constexpr double kSafe = 1e-11;
-
-Mesh cgalMesh(const Points& vertices, const Faces& faces) {
-  Mesh mesh;
-  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
-    mesh.add_vertex({vertices(v, 0), vertices(v, 1), vertices(v, 2)});
-  }
-  const auto vertex = [&](int v) { return Mesh::Vertex_index(static_cast<Mesh::size_type>(v)); };
-  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
-    if (mesh.add_face(vertex(faces(f, 0)), vertex(faces(f, 1)), vertex(faces(f, 2))) ==
-        Mesh::null_face()) {
-      throw std::logic_error("a surface to be checked is not manifold");
-    }
-  }
-  return mesh;
-}
 
 struct Normal {
   Vec3 vector;   ///< (b − a) × (c − a)
@@ -336,7 +317,10 @@ private:
       return Kernel::Triangle_3(exact(faces_(face, 0)), exact(faces_(face, 1)),
                                 exact(faces_(face, 2)));
     };
-    if (shared == 0) return !areApart(f, g) && CGAL::do_intersect(triangle(f), triangle(g));
+    if (shared == 0 && areApart(f, g)) return false;
+    // The predicates do not take faces without area, which `facesWithoutArea` tells.
+    if (triangle(f).is_degenerate() || triangle(g).is_degenerate()) return false;
+    if (shared == 0) return CGAL::do_intersect(triangle(f), triangle(g));
     if (shared == 1) {
       const int i = sharedF[0];
       const int j = sharedG[0];
@@ -357,6 +341,85 @@ private:
   TriangleTree tree_;
   std::vector<int> opposite_;
   std::vector<char> isEmbedded_;
+};
+
+/// Whether a point is inside of a closed surface, by the parity of the crossings on a way out of
+/// it. A way that meets an edge tells nothing: other ways are tried, a bounded number of them.
+class Parity {
+public:
+  Parity(const Points& surface, const Faces& faces, const TriangleTree& tree)
+      : x_(surface), faces_(faces), tree_(tree), lower_(surface.colwise().minCoeff()),
+        upper_(surface.colwise().maxCoeff()), length_(2.0 * (upper_ - lower_).norm()) {}
+
+  bool isInside(const Vec3& p) const {
+    if ((p.array() <= lower_.array()).any() || (p.array() >= upper_.array()).any()) return false;
+    for (const int axis : {2, 0, 1}) {
+      Vec3 end = p;
+      end[axis] = upper_[axis] + length_;
+      const Way way = walk(p, end);
+      if (way != Way::Unknown) return way == Way::Inside;
+    }
+    // Through the middle of a face a way leads off its edges, at least.
+    constexpr Eigen::Index kMostTries = 61;
+    const Eigen::Index step = std::max<Eigen::Index>(1, faces_.rows() / kMostTries);
+    for (Eigen::Index f = 0; f < faces_.rows(); f += step) {
+      const Vec3 middle =
+          (x_.row(faces_(f, 0)) + x_.row(faces_(f, 1)) + x_.row(faces_(f, 2))).transpose() / 3.0;
+      const Vec3 end = p + length_ * (middle - p).stableNormalized();
+      const Way way = walk(p, end);
+      if (way != Way::Unknown) return way == Way::Inside;
+    }
+    return false;
+  }
+
+private:
+  enum class Way { Inside, Outside, Unknown };
+
+  Way walk(const Vec3& from, const Vec3& to) const {
+    const Kernel::Point_3 p(from.x(), from.y(), from.z());
+    const Kernel::Point_3 q(to.x(), to.y(), to.z());
+    bool isOdd = false;
+    bool isKnown = true;
+    bool isOnSurface = false;
+    tree_.forOverlaps(from.cwiseMin(to), from.cwiseMax(to), 0, [&](Eigen::Index i) {
+      if (!isKnown || isOnSurface) return;
+      const auto face = faces_.row(tree_.faceAt(i));
+      const Kernel::Triangle_3 triangle(exact(face[0]), exact(face[1]), exact(face[2]));
+      if (triangle.is_degenerate()) return; // its neighbours meet in it
+      const auto ofP = CGAL::orientation(triangle[0], triangle[1], triangle[2], p);
+      const auto ofQ = CGAL::orientation(triangle[0], triangle[1], triangle[2], q);
+      if (ofP == CGAL::COPLANAR) {
+        if (triangle.has_on(p))
+          isOnSurface = true;
+        else if (ofQ == CGAL::COPLANAR)
+          isKnown = !CGAL::do_intersect(triangle, Segment(p, q));
+        return;
+      }
+      if (ofP == ofQ || ofQ == CGAL::COPLANAR) return;
+      int left = 0;
+      int right = 0;
+      for (int k = 0; k < 3; ++k) {
+        const auto side = CGAL::orientation(p, q, triangle[k], triangle[k + 1]);
+        left += side == CGAL::POSITIVE ? 1 : 0;
+        right += side == CGAL::NEGATIVE ? 1 : 0;
+      }
+      if (left > 0 && right > 0) return;
+      isKnown = left + right == 3;
+      isOdd = !isOdd;
+    });
+    if (isOnSurface) return Way::Outside;
+    if (!isKnown) return Way::Unknown;
+    return isOdd ? Way::Inside : Way::Outside;
+  }
+
+  using Segment = Kernel::Segment_3;
+  Kernel::Point_3 exact(int v) const { return {x_(v, 0), x_(v, 1), x_(v, 2)}; }
+
+  const Points& x_;
+  const Faces& faces_;
+  const TriangleTree& tree_;
+  Vec3 lower_, upper_;
+  double length_;
 };
 
 } // namespace
@@ -384,13 +447,16 @@ std::vector<int> facesWithoutArea(const Points& vertices, const Faces& faces) {
 }
 
 std::vector<bool> insideOf(const Points& points, const Points& surface, const Faces& faces) {
-  const Mesh mesh = cgalMesh(surface, faces);
-  const CGAL::Side_of_triangle_mesh<Mesh, Kernel> side(mesh);
-  std::vector<bool> inside;
-  for (Eigen::Index p = 0; p < points.rows(); ++p) {
-    inside.push_back(side({points(p, 0), points(p, 1), points(p, 2)}) == CGAL::ON_BOUNDED_SIDE);
-  }
-  return inside;
+  const TriangleTree tree(surface, faces);
+  const Parity parity(surface, faces, tree);
+  std::vector<char> inside(static_cast<std::size_t>(points.rows()));
+  constexpr Eigen::Index kChunk = 256;
+  forChunks(points.rows(), kChunk, [&](const Chunk& chunk) {
+    for (Eigen::Index p = chunk.begin; p < chunk.end; ++p) {
+      inside[static_cast<std::size_t>(p)] = parity.isInside(points.row(p).transpose()) ? 1 : 0;
+    }
+  });
+  return {inside.begin(), inside.end()};
 }
 
 bool isInside(const Points& vertices, const Faces& component, const Points& surface,
@@ -414,7 +480,7 @@ bool isInside(const Points& vertices, const Faces& component, const Points& surf
       return normal.dot(way) < 0.0;
     }
   }
-  return insideOf(vertices.row(component(0, 0)), surface, faces).front();
+  return Parity(surface, faces, surfaceTree).isInside(vertices.row(component(0, 0)).transpose());
 }
 
 } // namespace massprops

@@ -18,11 +18,13 @@ std::vector<int> selfIntersectingFaces(const Points& vertices, const Faces& face
 /// Faces without area, ascending. Exact.
 std::vector<int> facesWithoutArea(const Points& vertices, const Faces& faces);
 
-/// Whether each point lies strictly inside of the closed surface. Exact.
+/// Whether each point lies strictly inside of the closed surface. Exact: by the parity of crossings
+/// along a few dozen ways out; a point from which none of them stays off the surface's edges counts
+/// as outside.
 std::vector<bool> insideOf(const Points& points, const Points& surface, const Faces& faces);
 
 /// Whether a component that does not cross the closed, outward oriented surface lies inside of it;
-/// decided by one of its vertices. Exact.
+/// decided by one of its vertices. Exact as `insideOf`.
 bool isInside(const Points& vertices, const Faces& component, const Points& surface,
               const Faces& faces, const TriangleTree& surfaceTree);
 

@@ -133,12 +133,61 @@ TEST(Clearance, NamesTheFacesThatMeetTheOtherSurface) {
   }
 }
 
+TEST(SelfIntersectingFaces, AreFoundBesideFacesWithoutArea) {
+  // A face's edge is broken at its middle, with a flat face in between; then two bodies overlap.
+  TriangleMesh mesh = sphere(3);
+  const Eigen::RowVector3i old = mesh.faces.row(0);
+  const int middle = static_cast<int>(mesh.vertices.rows());
+  mesh.vertices.conservativeResize(middle + 1, 3);
+  mesh.vertices.row(middle) = 0.5 * (mesh.vertices.row(old[0]) + mesh.vertices.row(old[1]));
+  const Eigen::Index count = mesh.faces.rows();
+  mesh.faces.conservativeResize(count + 2, 3);
+  mesh.faces.row(0) << old[0], middle, old[2];
+  mesh.faces.row(count) << middle, old[1], old[2];
+  mesh.faces.row(count + 1) << old[0], old[1], middle;
+  EXPECT_EQ(facesWithoutArea(mesh), 1U);
+  EXPECT_TRUE(selfIntersectingFaces(mesh.vertices, mesh.faces).empty());
+  const TriangleMesh two = joined(mesh, transformed(mesh, Mat3::Identity(), {0.5, 0.1, 0.2}));
+  EXPECT_FALSE(selfIntersectingFaces(two.vertices, two.faces).empty());
+}
+
 TEST(InsideOf, SeparatesTheInsideOfARing) {
   const TriangleMesh ring = torus(2, 0.5, 24, 12);
   Points points(4, 3);
   points << 2, 0, 0, 0, 0, 0, -2, 0.1, 0.2, 9, 0, 0;
   EXPECT_EQ(insideOf(points, ring.vertices, ring.faces),
             (std::vector<bool>{true, false, true, false}));
+}
+
+TEST(InsideOf, AgreesWithTheWindingNumberBehindEdgesAndCorners) {
+  // On this grid every way along an axis meets edges or corners.
+  const TriangleMesh steps = polycube({{0, 0, 0}, {1, 0, 0}, {1, 0, 1}}, 2);
+  const Vec3 low = steps.vertices.colwise().minCoeff();
+  const Vec3 high = steps.vertices.colwise().maxCoeff();
+  Points points(11 * 11 * 11, 3);
+  for (int i = 0; i < points.rows(); ++i) {
+    const Vec3 share = Vec3(i % 11, i / 11 % 11, i / 121) / 8.0 - Vec3::Constant(1.0 / 8.0);
+    points.row(i) = (low + share.cwiseProduct(high - low)).transpose();
+  }
+  const std::vector<bool> inside = insideOf(points, steps.vertices, steps.faces);
+  const TriangleTree tree(steps.vertices, steps.faces);
+  int count = 0;
+  for (int i = 0; i < points.rows(); ++i) {
+    const Vec3 p = points.row(i).transpose();
+    const bool isOnSurface = tree.nearest(p).squaredDistance == 0.0;
+    const bool expected = !isOnSurface && windingNumber(steps, p) > 0.5;
+    EXPECT_EQ(inside[static_cast<std::size_t>(i)], expected) << p.transpose();
+    count += expected ? 1 : 0;
+  }
+  EXPECT_GT(count, 100);
+}
+
+TEST(InsideOf, ComesToAnEndInASheetOfAlmostNoThickness) {
+  TriangleMesh sheet = sphere(3);
+  sheet.vertices.col(1) *= 1e-30;
+  Points points(2, 3);
+  points << 0.1, 0, 0.2, 0.1, 1e-25, 0.2;
+  EXPECT_EQ(insideOf(points, sheet.vertices, sheet.faces), (std::vector<bool>{true, false}));
 }
 
 // ---------------------------------------------------------------- cavity surface
