@@ -1,7 +1,8 @@
 #include "core/coarse_to_fine.h"
 
+#include "core/moments.h"
+
 #include <algorithm>
-#include <cmath>
 
 namespace massprops {
 namespace {
@@ -10,19 +11,20 @@ namespace {
 constexpr int kMostCorrections = 8;
 /// A step that makes things worse is shortened to this.
 constexpr double kShorten = 0.3;
+/// What a step may leave a constraint by on the way: the next correction leads back.
+constexpr double kLooseViolation = 0.02;
+/// Outside of that the violation must shrink to this.
+constexpr double kNearer = 0.7;
 
 struct Point {
   Vector x;
-  CavityMoments cavity;
-  Evaluation evaluation;
+  Moments cavity;
+  double objective = 0.0;
   double violation = 0.0;
 };
 
-double violationOf(const Evaluation& e) {
-  double violation = 0.0;
-  if (e.equalities.size() > 0) violation = e.equalities.cwiseAbs().maxCoeff();
-  if (e.inequalities.size() > 0) violation = std::max(violation, e.inequalities.maxCoeff());
-  return violation;
+Moments cavityOf(const OffsetModel& model, const Vector& x) {
+  return moments(offsetSurfaces(model, x).inner, model.innerFaces);
 }
 
 } // namespace
@@ -30,78 +32,83 @@ double violationOf(const Evaluation& e) {
 OptimizeResult minimizeCoarseToFine(const OffsetModel& fine, const OffsetModel& coarse,
                                     const Goal& goal, const Weights& weights, const Vector& start,
                                     const OptimizeOptions& options) {
-  const bool inertia = goal.usesInertia();
-  int evaluations = 0;
+  OptimizeResult result;
   const auto finePoint = [&](const Vector& x) {
-    ++evaluations;
-    Point p{x, cavityMoments(fine, x, inertia), {}, 0.0};
-    p.evaluation = evaluateMoments(fine, goal, weights, p.cavity);
-    p.violation = violationOf(p.evaluation);
+    ++result.evaluations;
+    Point p{x, cavityOf(fine, x)};
+    const double volume = fine.solidMoments[0];
+    const Moments body = shellMoments(fine.solidMoments, p.cavity, 1.0, fine.fillDensity);
+    p.objective = momentObjective(goal, weights, body, (volume - p.cavity[0]) / volume);
+    p.violation = weights.constraints != 0.0 ? largestViolation(goal, body) : 0.0;
     return p;
   };
-  OptimizeOptions inner = options;
   // Between two corrections the constraints need only be as exact as the corrections are.
   const double tolerance = std::max(options.feasibility, 1e-6);
   const auto isBetter = [&](const Point& p, const Point& q) {
     const double ofP = std::max(p.violation, tolerance);
     const double ofQ = std::max(q.violation, tolerance);
-    return ofP < ofQ || (ofP == ofQ && p.evaluation.objective < q.evaluation.objective);
+    return ofP < ofQ || (ofP == ofQ && p.objective < q.objective);
+  };
+  const auto isProgress = [&](const Point& p, const Point& from) {
+    if (p.violation > kLooseViolation) return p.violation < kNearer * from.violation;
+    return p.objective < from.objective || std::max(p.violation, tolerance) < from.violation;
   };
 
-  Point best = finePoint(start);
-  std::string stopReason = "evaluation limit";
+  OptimizeOptions inner = options;
+  Point current = finePoint(start);
+  Point best = current;
+  bool isReachable = true;
+  result.stopReason = "evaluation limit";
   for (int correction = 0; correction < kMostCorrections; ++correction) {
-    const CavityMoments there = cavityMoments(coarse, best.x, inertia);
-    const Moments shift = best.cavity.value - there.value;
-    const MomentJacobian tilt = best.cavity.jacobian - there.jacobian;
+    const Moments shift = current.cavity - cavityOf(coarse, current.x);
     const auto corrected = [&](const Vector& x) {
-      CavityMoments cavity = cavityMoments(coarse, x, inertia);
-      cavity.value += shift + tilt * (x - best.x);
-      cavity.jacobian += tilt;
+      CavityMoments cavity = cavityMoments(coarse, x, goal.usesInertia());
+      cavity.value += shift;
       return evaluateMoments(fine, goal, weights, cavity);
     };
-    const OptimizeResult step = minimize(corrected, best.x, inner);
+    const OptimizeResult step = minimize(corrected, current.x, inner);
     inner.objectiveScale = step.objectiveScale;
+    isReachable = step.violation <= tolerance;
     Point next = finePoint(step.x);
-    bool better = isBetter(next, best);
     constexpr int kMostShortenings = 2;
-    for (int i = 0; i < kMostShortenings && !better; ++i) {
-      next = finePoint(best.x + kShorten * (next.x - best.x));
-      better = isBetter(next, best);
+    for (int i = 0; i < kMostShortenings && !isProgress(next, current); ++i) {
+      next = finePoint(current.x + kShorten * (next.x - current.x));
     }
-    if (!better) {
-      stopReason = "coefficients converged";
+    if (!isProgress(next, current)) {
+      result.stopReason = "coefficients converged";
       break;
     }
-    const double gain = best.evaluation.objective - next.evaluation.objective;
-    const bool wasFeasible = best.violation <= tolerance;
-    best = std::move(next);
+    const double gain = current.objective - next.objective;
+    const bool areFeasible = std::max(current.violation, next.violation) <= tolerance;
+    current = std::move(next);
+    if (isBetter(current, best)) best = current;
     // A hundredth of the range that the objective is scaled to would be seen in print; SLSQP's own
     // tolerance is far below what one more correction changes.
     constexpr double kWorthACorrection = 10.0;
-    if (wasFeasible && best.violation <= tolerance &&
+    if (areFeasible &&
         gain * step.objectiveScale < kWorthACorrection * options.objectiveTolerance) {
-      stopReason = "objective converged";
+      result.stopReason = "objective converged";
       break;
     }
   }
 
-  OptimizeResult result;
   result.x = best.x;
-  result.objective = best.evaluation.objective;
-  result.violation = std::max(0.0, best.violation);
+  result.objective = best.objective;
+  result.violation = best.violation;
   result.objectiveScale = inner.objectiveScale.value_or(1.0);
-  if (best.violation > options.feasibility) {
-    const auto problem = [&](const Vector& x) { return finePoint(x).evaluation; };
-    const OptimizeResult restored = restoreFeasibility(problem, best.x, options);
-    if (restored.violation < result.violation) {
+  const bool isFeasible = best.violation <= options.feasibility;
+  if (isReachable && (!isFeasible || current.objective < best.objective)) {
+    const auto problem = [&](const Vector& x) { return evaluate(fine, goal, weights, x); };
+    const OptimizeResult restored = restoreFeasibility(problem, current.x, options);
+    result.evaluations += restored.evaluations;
+    if (isFeasible
+            ? restored.violation <= options.feasibility && restored.objective < best.objective
+            : restored.violation < best.violation) {
       result.x = restored.x;
       result.objective = restored.objective;
       result.violation = restored.violation;
     }
   }
-  result.evaluations = evaluations;
-  result.stopReason = stopReason;
   return result;
 }
 

@@ -24,13 +24,23 @@ namespace {
 constexpr double kDiffusionLength = 0.02;
 
 /// Vertices of the proxy. On models with thin limbs its skeleton costs some per cent of what
-/// hollowing gains, with a scatter that falls slowly with its size (benchmarks/results.md).
+/// hollowing gains, with a scatter that falls slowly with its size (benchmarks/results.md). The
+/// whole of a small model takes less than a second.
 Eigen::Index proxySize(Eigen::Index vertexCount) {
+  constexpr Eigen::Index kSmall = 5000;
   constexpr double kShare = 0.46;
-  constexpr double kLeast = 2000.0;
   constexpr double kMost = 5000.0;
-  return static_cast<Eigen::Index>(
-      std::clamp(kShare * static_cast<double>(vertexCount), kLeast, kMost));
+  if (vertexCount <= kSmall) return vertexCount;
+  return static_cast<Eigen::Index>(std::min(kShare * static_cast<double>(vertexCount), kMost));
+}
+
+/// Share of the time until skeleton and basis are known: theirs goes with the proxy, that of the
+/// rest with the surface. Seconds a vertex, of which only the ratio counts.
+double shareOfSkeleton(Eigen::Index vertexCount, Eigen::Index proxyCount) {
+  constexpr double kSkeleton = 8e-5;
+  constexpr double kRest = 3.5e-5;
+  const double skeleton = kSkeleton * static_cast<double>(proxyCount);
+  return skeleton / (skeleton + kRest * static_cast<double>(vertexCount));
 }
 
 /// The outer surface keeps the point that the body hangs from.
@@ -79,6 +89,8 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   const Stopwatch total;
   Stages stages;
 
+  constexpr int kStart = 2;
+  constexpr int kEnd = 95;
   tell(0, "Checking the model");
   const Solid solid = makeSolid(model);
   requireSensible(options, solid.vertices().rows(), solid.diagonal());
@@ -86,8 +98,10 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
 
   // Skeleton and basis are smooth: a coarse copy of the surface carries them. The basis does not
   // need the skeleton: both cores work.
-  tell(2, "Mean curvature skeleton and harmonic basis");
-  const Proxy proxy = makeProxy(piece.vertices, piece.faces, proxySize(piece.vertices.rows()));
+  tell(kStart, "Mean curvature skeleton and harmonic basis");
+  const Proxy proxy =
+      makeProxy(piece.vertices, piece.faces,
+                options.fullResolution ? piece.vertices.rows() : proxySize(piece.vertices.rows()));
   const TriangleMesh& coarse = proxy.mesh;
   const Vector area = vertexLumpedMass(piece.vertices, piece.faces);
   const Vector mass = area / area.sum();
@@ -120,11 +134,15 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   stages.skeletonFailures = skeleton.failedComponents;
   stages.repairs = solid.repairs().describe();
 
-  tell(65, "Offset directions");
+  const int afterSkeleton =
+      kStart + static_cast<int>((kEnd - kStart) *
+                                shareOfSkeleton(piece.vertices.rows(), coarse.vertices.rows()));
+  tell(afterSkeleton, "Offset directions");
   const Points axis = smoothedOverSurface(skeleton.points, coarseL, coarseArea, kDiffusionLength);
   const OffsetField field = offsetField(piece.vertices, piece.faces, proxy.interpolation * axis);
 
-  tell(70, "Optimization");
+  const int beforeSearch = afterSkeleton + (kEnd - afterSkeleton) / 8;
+  tell(beforeSearch, "Optimization");
   const auto representable = [&](const Points& points) {
     return options.representable ? options.representable(points) : points;
   };
@@ -151,9 +169,9 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   task.deliverable = [&](const Points& working) {
     return toWorking(piece.frame, representable(toModel(piece.frame, working)));
   };
-  int percent = 70;
+  int percent = beforeSearch;
   const auto tellSearch = [&](double share) {
-    percent = std::max(percent, 70 + static_cast<int>(25.0 * share));
+    percent = std::max(percent, beforeSearch + static_cast<int>((kEnd - beforeSearch) * share));
     tell(percent, "Optimization");
   };
   const auto isUseless = [&](const CavityResult& found) {
@@ -169,7 +187,7 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   if (isUseless(cavity)) cavity.status = CavityStatus::NoGain;
   if (cavity.status == CavityStatus::NoRoom) stages.largestWall = largestWall(task, boundsFor);
 
-  tell(95, "Report");
+  tell(kEnd, "Report");
   Result result;
   if (cavity.status == CavityStatus::Found) {
     Submesh inner = submesh(representable(toModel(piece.frame, inSolidOrder(piece, cavity.inner))),

@@ -344,6 +344,32 @@ Mat3 shear(double slope) {
   return result;
 }
 
+TriangleMesh subdivided(const TriangleMesh& mesh) {
+  std::map<std::pair<int, int>, int> middles;
+  std::vector<Eigen::RowVector3d> added;
+  const auto middle = [&](int a, int b) {
+    const auto [at, isNew] = middles.try_emplace(
+        std::minmax(a, b), static_cast<int>(mesh.vertices.rows()) + static_cast<int>(added.size()));
+    if (isNew) added.emplace_back(0.5 * (mesh.vertices.row(a) + mesh.vertices.row(b)));
+    return at->second;
+  };
+  TriangleMesh result{{}, Faces(4 * mesh.faces.rows(), 3)};
+  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
+    const Eigen::RowVector3i v = mesh.faces.row(f);
+    const Eigen::RowVector3i m(middle(v[0], v[1]), middle(v[1], v[2]), middle(v[2], v[0]));
+    result.faces.row(4 * f) << v[0], m[0], m[2];
+    result.faces.row(4 * f + 1) << m[0], v[1], m[1];
+    result.faces.row(4 * f + 2) << m[2], m[1], v[2];
+    result.faces.row(4 * f + 3) = m;
+  }
+  result.vertices.resize(mesh.vertices.rows() + static_cast<Eigen::Index>(added.size()), 3);
+  result.vertices.topRows(mesh.vertices.rows()) = mesh.vertices;
+  for (std::size_t i = 0; i < added.size(); ++i) {
+    result.vertices.row(mesh.vertices.rows() + static_cast<Eigen::Index>(i)) = added[i];
+  }
+  return result;
+}
+
 TriangleMesh reversed(const TriangleMesh& mesh) {
   TriangleMesh result = mesh;
   result.faces.col(1).swap(result.faces.col(2));

@@ -74,6 +74,8 @@ Mat3 shear(double slope);
 
 /// The same surface seen from the other side.
 TriangleMesh reversed(const TriangleMesh& mesh);
+/// Every triangle cut in four at the middles of its edges.
+TriangleMesh subdivided(const TriangleMesh& mesh);
 /// Both meshes side by side in one, nothing merged.
 TriangleMesh joined(const TriangleMesh& a, const TriangleMesh& b);
 

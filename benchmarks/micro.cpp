@@ -1,0 +1,99 @@
+// The parts of the filter that are called most, each by itself, on one core: the moments with all
+// gradients, the harmonic basis, the offset directions and the inspection of the result.
+//
+// usage: micro [Google Benchmark's options]
+#include "core/harmonics.h"
+#include "core/inspection.h"
+#include "core/laplacian.h"
+#include "core/moments.h"
+#include "core/offset_field.h"
+#include "core/parallel.h"
+#include "core/proxy.h"
+#include "core/workpiece.h"
+#include "organic_model.h"
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <map>
+
+namespace {
+
+using namespace massprops;
+
+/// An animal in the working frame, with a cavity that keeps a wall of 1 % of the diagonal.
+struct Animal {
+  Workpiece piece;
+  Points directions;
+  Points inner;
+};
+
+const Animal& animal(Eigen::Index size) {
+  static std::map<Eigen::Index, Animal> made;
+  const auto at = made.find(size);
+  if (at != made.end()) return at->second;
+  setThreadCount(1);
+  Animal a{makeWorkpiece(makeSolid(benchmarks::organicModel(size)), {}), {}, {}};
+  const Points& x = a.piece.vertices;
+  const Points middle = Points::Zero(x.rows(), 3).rowwise() + x.colwise().mean();
+  const OffsetField field = offsetField(x, a.piece.faces, middle);
+  a.directions = field.directions;
+  const Vector offsets = (2.0 * a.piece.wall * field.clearance.cwiseMax(0.2).cwiseInverse())
+                             .cwiseMin(0.5 * field.reach);
+  a.inner = x - offsets.asDiagonal() * field.directions;
+  return made.emplace(size, std::move(a)).first->second;
+}
+
+void countTriangles(benchmark::State& state, const Animal& a) {
+  state.counters["a_triangle"] = benchmark::Counter(static_cast<double>(a.piece.faces.rows()),
+                                                    benchmark::Counter::kIsIterationInvariantRate |
+                                                        benchmark::Counter::kInvert);
+}
+
+void momentsWithGradients(benchmark::State& state) {
+  const Animal& a = animal(state.range(0));
+  for ([[maybe_unused]] auto _ : state) {
+    benchmark::DoNotOptimize(moments(a.inner, a.piece.faces));
+    benchmark::DoNotOptimize(momentRates(a.inner, a.piece.faces, a.directions));
+  }
+  countTriangles(state, a);
+}
+
+void basis(benchmark::State& state) {
+  const Animal& a = animal(100000);
+  const Proxy proxy = makeProxy(a.piece.vertices, a.piece.faces, state.range(0));
+  const SparseMatrix L = cotanLaplacian(proxy.mesh.vertices, proxy.mesh.faces);
+  const Vector area = vertexLumpedMass(proxy.mesh.vertices, proxy.mesh.faces);
+  constexpr int kBasisSize = 36;
+  for ([[maybe_unused]] auto _ : state) {
+    benchmark::DoNotOptimize(
+        harmonicBasis(proxy.mesh.vertices, proxy.mesh.faces, L, area / area.sum(), kBasisSize));
+  }
+}
+
+void directionField(benchmark::State& state) {
+  const Animal& a = animal(state.range(0));
+  const Points middle =
+      Points::Zero(a.piece.vertices.rows(), 3).rowwise() + a.piece.vertices.colwise().mean();
+  for ([[maybe_unused]] auto _ : state) {
+    benchmark::DoNotOptimize(offsetField(a.piece.vertices, a.piece.faces, middle));
+  }
+  countTriangles(state, a);
+}
+
+void checker(benchmark::State& state) {
+  const Animal& a = animal(state.range(0));
+  for ([[maybe_unused]] auto _ : state) {
+    benchmark::DoNotOptimize(inspect(a.inner, a.piece.faces, a.piece.vertices, a.piece.faces,
+                                     a.piece.wall, false, false));
+  }
+  countTriangles(state, a);
+}
+
+} // namespace
+
+BENCHMARK(momentsWithGradients)->Arg(6000)->Arg(100000)->Unit(benchmark::kMillisecond);
+BENCHMARK(basis)->Arg(2500)->Arg(5000)->Unit(benchmark::kMillisecond);
+BENCHMARK(directionField)->Arg(6000)->Arg(100000)->Unit(benchmark::kMillisecond);
+BENCHMARK(checker)->Arg(6000)->Arg(100000)->Unit(benchmark::kMillisecond);
+BENCHMARK_MAIN();
