@@ -55,7 +55,7 @@ void markIrregular(const Faces& faces, const VertexCorners& corners, std::vector
       const auto precedes = [&](int other) {
         return corner[previousHalfEdge(other)] == from && !touches(faces, other / 3, solid);
       };
-      const VertexCorners::Range all = corners.at(v);
+      const IndexRange all = corners.at(v);
       if (std::none_of(all.begin(), all.end(), precedes)) ++openings;
     }
     if (isUsed && openings <= 1) continue;
@@ -112,7 +112,7 @@ std::optional<std::vector<int>> caps(const Points& vertices, const Faces& faces,
   std::vector<Eigen::Index> near;
   for (std::size_t v = 0; v < solid.size(); ++v) {
     if (solid[v] != 0) continue;
-    const VertexCorners::Range all = corners.at(static_cast<Eigen::Index>(v));
+    const IndexRange all = corners.at(static_cast<Eigen::Index>(v));
     const bool isBorder = std::any_of(
         all.begin(), all.end(), [&](int c) { return solid[at(corner[nextHalfEdge(c)])] != 0; });
     if (!isBorder) continue;
@@ -147,7 +147,7 @@ std::optional<std::vector<int>> caps(const Points& vertices, const Faces& faces,
   const auto isHole = [&](Mesh::Halfedge_index h) {
     const int from = whole(mesh.source(h));
     const int to = whole(mesh.target(h));
-    const VertexCorners::Range all = corners.at(from);
+    const IndexRange all = corners.at(from);
     return std::any_of(all.begin(), all.end(), [&](int c) {
       return corner[nextHalfEdge(c)] == to && touches(faces, c / 3, solid);
     });

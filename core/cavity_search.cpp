@@ -67,7 +67,7 @@ void tighten(const CavityTask& task, const CavityResult& result, const Neighbour
     bounds.upper[v] = std::min(bounds.upper[v], kShrink * result.innerOffsets[v]);
   }
   for (const int v : result.inspection.crossing) {
-    const Neighbours::Range around = neighbours[static_cast<std::size_t>(v)];
+    const IndexRange around = neighbours[static_cast<std::size_t>(v)];
     const bool atCap = std::any_of(around.begin(), around.end(), [&](int w) {
       return result.cavity.solid[static_cast<std::size_t>(w)] != 0;
     });

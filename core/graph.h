@@ -10,15 +10,8 @@ namespace massprops {
 /// For every vertex its neighbours, ascending.
 class Neighbours {
 public:
-  struct Range {
-    const int* first;
-    const int* last;
-    const int* begin() const { return first; }
-    const int* end() const { return last; }
-    std::size_t size() const { return static_cast<std::size_t>(last - first); }
-  };
   std::size_t size() const { return begin_.size() - 1; }
-  Range operator[](std::size_t v) const {
+  IndexRange operator[](std::size_t v) const {
     return {all_.data() + begin_[v], all_.data() + begin_[v + 1]};
   }
 

@@ -24,14 +24,7 @@ struct VertexCorners {
   std::vector<int> begin;
   std::vector<int> corners;
 
-  struct Range {
-    const int* first;
-    const int* last;
-    const int* begin() const { return first; }
-    const int* end() const { return last; }
-    std::size_t size() const { return static_cast<std::size_t>(last - first); }
-  };
-  Range at(Eigen::Index v) const {
+  IndexRange at(Eigen::Index v) const {
     const auto i = static_cast<std::size_t>(v);
     return {corners.data() + begin[i], corners.data() + begin[i + 1]};
   }

@@ -70,7 +70,7 @@ void requireManifoldVertices(const TriangleMesh& mesh) {
   const std::vector<int> opposite = oppositeHalfEdges(mesh.vertices.rows(), mesh.faces);
   std::size_t bad = 0;
   for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
-    const VertexCorners::Range all = corners.at(v);
+    const IndexRange all = corners.at(v);
     if (all.size() == 0) continue;
     std::size_t turned = 0;
     int corner = *all.begin();

@@ -273,6 +273,32 @@ double TriangleTree::squaredDistanceTo(const Box& box, const Vec3& p) const {
   return sum;
 }
 
+template <class Distance, class Reach, class Visit>
+void TriangleTree::visitNearest(const Distance& distance, const Reach& reach,
+                                const Visit& visit) const {
+  struct Entry {
+    Eigen::Index node;
+    double distance;
+  };
+  Entry stack[64];
+  int size = 0;
+  stack[size++] = {1, distance(1)};
+  while (size > 0) {
+    const Entry e = stack[--size];
+    if (!(e.distance < reach())) continue;
+    if (e.node >= leaves_) {
+      const Eigen::Index end = firstPlace(e.node - leaves_ + 1);
+      for (Eigen::Index i = firstPlace(e.node - leaves_); i < end; ++i) visit(faceAt(i));
+      continue;
+    }
+    Entry near{2 * e.node, distance(2 * e.node)};
+    Entry far{2 * e.node + 1, distance(2 * e.node + 1)};
+    if (far.distance < near.distance) std::swap(near, far);
+    if (far.distance < reach()) stack[size++] = far;
+    if (near.distance < reach()) stack[size++] = near;
+  }
+}
+
 TriangleTree::Hit TriangleTree::nearest(const Vec3& p, double squaredBound, int hintFace,
                                         double squaredExact) const {
   Hit best;
@@ -288,28 +314,11 @@ TriangleTree::Hit TriangleTree::nearest(const Vec3& p, double squaredBound, int 
         distance > squaredExact ? std::max(squaredExact, distance / (kSlack * kSlack)) : distance;
   };
   if (hintFace >= 0) visit(hintFace);
-  struct Entry {
-    Eigen::Index node;
-    double distance;
-  };
-  Entry stack[64];
-  int size = 0;
-  stack[size++] = {1, squaredDistanceTo(boxes_[1], p)};
-  while (size > 0) {
-    const Entry e = stack[--size];
-    if (!(e.distance < reach)) continue;
-    if (e.node >= leaves_) {
-      const Eigen::Index end = firstPlace(e.node - leaves_ + 1);
-      for (Eigen::Index i = firstPlace(e.node - leaves_); i < end; ++i) visit(faceAt(i));
-      continue;
-    }
-    Entry near{2 * e.node, squaredDistanceTo(boxes_[static_cast<std::size_t>(2 * e.node)], p)};
-    Entry far{2 * e.node + 1,
-              squaredDistanceTo(boxes_[static_cast<std::size_t>(2 * e.node + 1)], p)};
-    if (far.distance < near.distance) std::swap(near, far);
-    if (far.distance < reach) stack[size++] = far;
-    if (near.distance < reach) stack[size++] = near;
-  }
+  visitNearest(
+      [&](Eigen::Index node) {
+        return squaredDistanceTo(boxes_[static_cast<std::size_t>(node)], p);
+      },
+      [&] { return reach; }, visit);
   return best;
 }
 
@@ -329,29 +338,17 @@ double TriangleTree::squaredDistance(const Vec3& a, const Vec3& b, const Vec3& c
     return sum;
   };
   double least = squaredBound;
-  Eigen::Index stack[64];
-  int size = 0;
-  stack[size++] = 1;
-  while (size > 0) {
-    const Eigen::Index node = stack[--size];
-    if (!(gap(node) < least)) continue;
-    if (node < leaves_) {
-      stack[size++] = 2 * node + 1;
-      stack[size++] = 2 * node;
-      continue;
+  const auto visit = [&](int f) {
+    const Vec3 t[3] = {corner(f, 0), corner(f, 1), corner(f, 2)};
+    if (isFartherAlong(normal, s, t, least) ||
+        isFartherAlong((t[0] + t[1] + t[2]) - (s[0] + s[1] + s[2]), s, t, least) ||
+        isFartherAlong((t[1] - t[0]).cross(t[2] - t[0]), s, t, least)) {
+      return;
     }
-    const Eigen::Index end = firstPlace(node - leaves_ + 1);
-    for (Eigen::Index i = firstPlace(node - leaves_); i < end; ++i) {
-      const int f = faceAt(i);
-      const Vec3 t[3] = {corner(f, 0), corner(f, 1), corner(f, 2)};
-      if (isFartherAlong(normal, s, t, least) ||
-          isFartherAlong((t[0] + t[1] + t[2]) - (s[0] + s[1] + s[2]), s, t, least) ||
-          isFartherAlong((t[1] - t[0]).cross(t[2] - t[0]), s, t, least)) {
-        continue;
-      }
-      least = std::min(least, squaredDistanceOfTriangles(s, t));
-    }
-  }
+    least = std::min(least, squaredDistanceOfTriangles(s, t));
+  };
+  visitNearest(
+      gap, [&] { return least; }, visit);
   return least;
 }
 
@@ -394,27 +391,8 @@ double TriangleTree::firstHit(const Vec3& start, const Vec3& direction, double l
     const double t = ac.dot(r) / determinant;
     if (t >= 0.0 && t < best) best = t;
   };
-  struct Entry {
-    Eigen::Index node;
-    double first;
-  };
-  Entry stack[64];
-  int size = 0;
-  stack[size++] = {1, entry(1)};
-  while (size > 0) {
-    const Entry e = stack[--size];
-    if (!(e.first < best)) continue;
-    if (e.node >= leaves_) {
-      const Eigen::Index end = firstPlace(e.node - leaves_ + 1);
-      for (Eigen::Index i = firstPlace(e.node - leaves_); i < end; ++i) visit(faceAt(i));
-      continue;
-    }
-    Entry near{2 * e.node, entry(2 * e.node)};
-    Entry far{2 * e.node + 1, entry(2 * e.node + 1)};
-    if (far.first < near.first) std::swap(near, far);
-    if (far.first < best) stack[size++] = far;
-    if (near.first < best) stack[size++] = near;
-  }
+  visitNearest(
+      entry, [&] { return best; }, visit);
   return best < limit ? best : kInfinity;
 }
 

@@ -62,6 +62,10 @@ private:
   struct Box {
     float lower[3], upper[3];
   };
+  /// Calls visit(face) for the triangles in boxes of which `distance`(node) is below `reach`(), the
+  /// nearer ones first; a visit may bring the reach down.
+  template <class Distance, class Reach, class Visit>
+  void visitNearest(const Distance& distance, const Reach& reach, const Visit& visit) const;
   Eigen::Index firstPlace(Eigen::Index leaf) const { return leaf * faces_.rows() / leaves_; }
   double squaredDistanceTo(const Box& box, const Vec3& p) const;
   Box boxOf(Eigen::Index begin, Eigen::Index end) const;

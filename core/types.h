@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <cstddef>
 #include <stdexcept>
 
 namespace massprops {
@@ -24,6 +25,15 @@ using Matrix = Eigen::MatrixXd;
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 /// m×3, one triangle a row, indices into Points.
 using Faces = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+/// Some of a list of indices.
+struct IndexRange {
+  const int* first;
+  const int* last;
+  const int* begin() const { return first; }
+  const int* end() const { return last; }
+  std::size_t size() const { return static_cast<std::size_t>(last - first); }
+};
 
 /// Any triangles: nothing is promised about them.
 struct TriangleMesh {

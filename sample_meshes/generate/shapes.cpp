@@ -20,6 +20,17 @@ Implicit limb(const std::vector<std::pair<Vec3, double>>& chain) {
   return solid;
 }
 
+/// The part of the solid above the ground, all of it between two corners of a box.
+Sample sampleOf(const char* name, const Implicit& solid, const Vec3& lower, const Vec3& upper,
+                int vertexCount) {
+  Sample sample{name, {}};
+  sample.problem.solid = solid;
+  sample.problem.lower = lower;
+  sample.problem.upper = upper;
+  sample.problem.vertexCount = vertexCount;
+  return sample;
+}
+
 /// A box that stands on a cut-off corner, a little off its balance.
 Sample boxOnCorner() {
   const Vec3 size(60, 50, 40);
@@ -31,12 +42,8 @@ Sample boxOnCorner() {
   const double cut = 10;
   const Vec3 corner = turn * (-size / 2);
   const Vec3 center(-corner.x(), -corner.y(), -corner.z() - cut);
-  Sample sample{"box_on_corner", {}};
-  sample.problem.solid = moved(roundedBox(size, 3), turn, center);
-  sample.problem.lower = Vec3(-60, -60, 0);
-  sample.problem.upper = Vec3(60, 60, 90);
-  sample.problem.vertexCount = 6129;
-  return sample;
+  return sampleOf("box_on_corner", moved(roundedBox(size, 3), turn, center), Vec3(-60, -60, 0),
+                  Vec3(60, 60, 90), 6129);
 }
 
 /// A spinning top: an ellipsoid with three different radii, tilted and off the axis of its stick.
@@ -45,11 +52,9 @@ Sample tiltedEllipsoidTop() {
                               rotation(Vec3(0.3, 1, 0), 0.07), Vec3(1.2, -0.6, 25));
   const Implicit stick = roundCone(Vec3(0, 0, 1.6), 2.6, Vec3(0, 0, 14), 5);
   const Implicit handle = roundCone(Vec3(0, 0, 20), 4.2, Vec3(0, 0, 58), 3.4);
-  Sample sample{"tilted_ellipsoid_top", {}};
-  sample.problem.solid = smoothUnion(smoothUnion(body, stick, 9), handle, 9);
-  sample.problem.lower = Vec3(-34, -34, 0);
-  sample.problem.upper = Vec3(34, 34, 66);
-  sample.problem.vertexCount = 750;
+  Sample sample =
+      sampleOf("tilted_ellipsoid_top", smoothUnion(smoothUnion(body, stick, 9), handle, 9),
+               Vec3(-34, -34, 0), Vec3(34, 34, 66), 750);
   sample.problem.relativeEdgeLength = [](const Vec3& p) {
     const double radius = std::sqrt(p.x() * p.x() + p.y() * p.y());
     const double far = std::clamp(radius / 14, 0.0, 1.0);
@@ -90,12 +95,7 @@ Sample toyDinosaur() {
   solid = smoothUnion(solid, mirroredY(arm, 4), 4);
   solid = smoothUnion(solid, mirroredY(eye, 4), 3);
 
-  Sample sample{"toy_dinosaur", {}};
-  sample.problem.solid = solid;
-  sample.problem.lower = Vec3(-72, -30, 0);
-  sample.problem.upper = Vec3(70, 30, 106);
-  sample.problem.vertexCount = 11000;
-  return sample;
+  return sampleOf("toy_dinosaur", solid, Vec3(-72, -30, 0), Vec3(70, 30, 106), 11000);
 }
 
 /// A long ring on a flat foot, leaning in its own plane.
@@ -103,12 +103,8 @@ Sample leaningRing() {
   const Eigen::Matrix3d turn = rotation(Vec3(0, 1, 0), 0.2);
   const Implicit ring = moved(chainLink(18, 9, 20), turn, turn * Vec3(0, 0, 42));
   const Implicit foot = ellipsoid(Vec3(0, 0, 3), Vec3(12, 13, 9));
-  Sample sample{"leaning_ring", {}};
-  sample.problem.solid = smoothUnion(ring, foot, 8);
-  sample.problem.lower = Vec3(-30, -20, 0);
-  sample.problem.upper = Vec3(64, 20, 88);
-  sample.problem.vertexCount = 6000;
-  return sample;
+  return sampleOf("leaning_ring", smoothUnion(ring, foot, 8), Vec3(-30, -20, 0), Vec3(64, 20, 88),
+                  6000);
 }
 
 /// An egg that leans so far over its small foot that no cavity helps.
@@ -117,12 +113,8 @@ Sample leaningEgg() {
   const Vec3 tip(9, 0, 18);
   const Implicit egg = roundCone(tip, 16, tip + turn * Vec3(0, 0, 18), 22);
   const Implicit foot = roundCone(Vec3(0, 0, 4.5), 6.5, Vec3(6, 0, 14), 7);
-  Sample sample{"leaning_egg", {}};
-  sample.problem.solid = smoothUnion(egg, foot, 8);
-  sample.problem.lower = Vec3(-30, -30, 0);
-  sample.problem.upper = Vec3(60, 30, 74);
-  sample.problem.vertexCount = 3000;
-  return sample;
+  return sampleOf("leaning_egg", smoothUnion(egg, foot, 8), Vec3(-30, -30, 0), Vec3(60, 30, 74),
+                  3000);
 }
 
 /// A dog whose big head hangs out over its four feet.
@@ -137,13 +129,9 @@ Sample toyDog() {
   Implicit legs = limb({{{-22, 9, 32}, 9}, {{-24, 10, 16}, 7}, {{-22, 10, 5}, 7}});
   legs = smoothUnion(legs, limb({{{16, 9, 34}, 9}, {{14, 10, 16}, 7}, {{16, 10, 5}, 7}}), 4);
   const Implicit ear = roundCone(Vec3(46, 16, 83), 7, Vec3(42, 23, 66), 6);
-  Sample sample{"toy_dog", {}};
-  sample.problem.solid =
-      smoothUnion(smoothUnion(trunk, mirroredY(legs, 4), 6), mirroredY(ear, 4), 4);
-  sample.problem.lower = Vec3(-56, -34, 0);
-  sample.problem.upper = Vec3(96, 34, 98);
-  sample.problem.vertexCount = 5000;
-  return sample;
+  return sampleOf("toy_dog",
+                  smoothUnion(smoothUnion(trunk, mirroredY(legs, 4), 6), mirroredY(ear, 4), 4),
+                  Vec3(-56, -34, 0), Vec3(96, 34, 98), 5000);
 }
 
 /// A yo-yo of two unequal halves, one with a boss out of the middle.
@@ -152,12 +140,7 @@ Sample unevenYoYo() {
                                ellipsoid(Vec3(0.4, -0.3, 29), Vec3(27, 28, 12)), 2);
   solid = smoothUnion(solid, roundCone(Vec3(0, 0, 12), 9, Vec3(0, 0, 28), 9), 3);
   solid = smoothUnion(solid, ellipsoid(Vec3(10, 5, 38), Vec3(8, 7, 6)), 5);
-  Sample sample{"uneven_yo_yo", {}};
-  sample.problem.solid = solid;
-  sample.problem.lower = Vec3(-34, -34, 0);
-  sample.problem.upper = Vec3(34, 34, 50);
-  sample.problem.vertexCount = 3000;
-  return sample;
+  return sampleOf("uneven_yo_yo", solid, Vec3(-34, -34, 0), Vec3(34, 34, 50), 3000);
 }
 
 /// A jar on a foot, leaning; its inside takes a liquid.
@@ -165,12 +148,8 @@ Sample leaningJar() {
   const Implicit belly = roundCone(Vec3(5, 0, 18), 15, Vec3(15, 0, 40), 19);
   const Implicit neck = roundCone(Vec3(21, 0, 54), 11, Vec3(27, 0, 68), 9);
   const Implicit foot = roundCone(Vec3(0, 0, 3), 12, Vec3(2, 0, 12), 11);
-  Sample sample{"leaning_jar", {}};
-  sample.problem.solid = smoothUnion(smoothUnion(belly, neck, 8), foot, 6);
-  sample.problem.lower = Vec3(-24, -24, 0);
-  sample.problem.upper = Vec3(46, 24, 84);
-  sample.problem.vertexCount = 3000;
-  return sample;
+  return sampleOf("leaning_jar", smoothUnion(smoothUnion(belly, neck, 8), foot, 6),
+                  Vec3(-24, -24, 0), Vec3(46, 24, 84), 3000);
 }
 
 /// A tumbler: a round belly under a big head, so that the solid lies down on its side.
@@ -178,12 +157,8 @@ Sample rolyPoly() {
   Implicit solid = smoothUnion(ball(Vec3(0, 0, 25.5), 26), ball(Vec3(1.5, 0, 60), 18), 8);
   solid = smoothUnion(solid, roundCone(Vec3(1.5, 0, 76), 7, Vec3(3, 0, 84), 4), 6);
   const Implicit arm = roundCone(Vec3(6, 22, 32), 6, Vec3(14, 22, 26), 5);
-  Sample sample{"roly_poly", {}};
-  sample.problem.solid = smoothUnion(solid, mirroredY(arm, 4), 5);
-  sample.problem.lower = Vec3(-32, -34, 0);
-  sample.problem.upper = Vec3(32, 34, 94);
-  sample.problem.vertexCount = 4000;
-  return sample;
+  return sampleOf("roly_poly", smoothUnion(solid, mirroredY(arm, 4), 5), Vec3(-32, -34, 0),
+                  Vec3(32, 34, 94), 4000);
 }
 
 /// A bath duck; made of one piece of plastic it sinks.
@@ -192,12 +167,8 @@ Sample bathDuck() {
   solid = smoothUnion(solid, roundCone(Vec3(-28, 0, 26), 9, Vec3(-42, 0, 38), 4), 8);
   Implicit head = ball(Vec3(17, 0, 50), 17);
   head = smoothUnion(head, ellipsoid(Vec3(34, 0, 48), Vec3(9, 8, 4)), 3);
-  Sample sample{"bath_duck", {}};
-  sample.problem.solid = smoothUnion(solid, head, 8);
-  sample.problem.lower = Vec3(-52, -30, 0);
-  sample.problem.upper = Vec3(50, 30, 74);
-  sample.problem.vertexCount = 4000;
-  return sample;
+  return sampleOf("bath_duck", smoothUnion(solid, head, 8), Vec3(-52, -30, 0), Vec3(50, 30, 74),
+                  4000);
 }
 
 /// An ornament on a knob that is not above its middle.
@@ -206,12 +177,7 @@ Sample hangingFish() {
   solid = smoothUnion(solid, roundCone(Vec3(-26, 0, 20), 7, Vec3(-42, 0, 32), 5.5), 8);
   solid = smoothUnion(solid, roundCone(Vec3(-26, 0, 20), 7, Vec3(-42, 0, 9), 5.5), 8);
   solid = smoothUnion(solid, roundCone(Vec3(-7, 0, 37), 5, Vec3(-7, 0, 47), 4), 4);
-  Sample sample{"hanging_fish", {}};
-  sample.problem.solid = solid;
-  sample.problem.lower = Vec3(-56, -20, 0);
-  sample.problem.upper = Vec3(50, 20, 56);
-  sample.problem.vertexCount = 3000;
-  return sample;
+  return sampleOf("hanging_fish", solid, Vec3(-56, -20, 0), Vec3(50, 20, 56), 3000);
 }
 
 /// A skittle that stands neither solid nor hollow, but with a surface moved out a little.
@@ -219,12 +185,8 @@ Sample leaningSkittle() {
   const Eigen::Matrix3d turn = rotation(Vec3(0, 1, 0), 0.265);
   const Implicit belly = roundCone(Vec3(3, 0, 9), 12, turn * Vec3(6, 0, 34), 17);
   const Implicit head = roundCone(turn * Vec3(6, 0, 50), 9, turn * Vec3(7, 0, 66), 12);
-  Sample sample{"leaning_skittle", {}};
-  sample.problem.solid = smoothUnion(belly, head, 10);
-  sample.problem.lower = Vec3(-24, -24, 0);
-  sample.problem.upper = Vec3(56, 24, 88);
-  sample.problem.vertexCount = 3000;
-  return sample;
+  return sampleOf("leaning_skittle", smoothUnion(belly, head, 10), Vec3(-24, -24, 0),
+                  Vec3(56, 24, 88), 3000);
 }
 
 /// A piece of a board game that shall feel as heavy as the others.
@@ -232,12 +194,7 @@ Sample gamePiece() {
   Implicit solid = ellipsoid(Vec3(0, 0, 5), Vec3(17, 17, 6.5));
   solid = smoothUnion(solid, roundCone(Vec3(0, 0, 10), 11, Vec3(0, 0, 34), 6), 5);
   solid = smoothUnion(solid, ball(Vec3(0, 0, 43), 11), 4);
-  Sample sample{"game_piece", {}};
-  sample.problem.solid = solid;
-  sample.problem.lower = Vec3(-24, -24, 0);
-  sample.problem.upper = Vec3(24, 24, 60);
-  sample.problem.vertexCount = 1500;
-  return sample;
+  return sampleOf("game_piece", solid, Vec3(-24, -24, 0), Vec3(24, 24, 60), 1500);
 }
 
 } // namespace
