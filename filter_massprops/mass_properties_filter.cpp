@@ -223,7 +223,8 @@ FilterArity MassPropertiesFilter::filterArity(ActionPointer) const {
 }
 
 int MassPropertiesFilter::getPreConditions(ActionPointer) const {
-  return MeshModel::MM_FACENUMBER;
+  // A layer without faces is refused with a sentence that says what to do.
+  return MeshModel::MM_NONE;
 }
 
 int MassPropertiesFilter::postCondition(ActionPointer) const {

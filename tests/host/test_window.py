@@ -89,6 +89,10 @@ class FilterTest(window.WindowTest):
         vertices, faces = cube()
         self.refuse(vertices, faces[:-1], "The surface is open along 3 boundary edges", "Close Holes")
 
+    def test_points_without_faces(self):
+        vertices, _ = cube()
+        self.refuse(vertices, np.zeros((0, 3), int), "has points but no faces", "Screened Poisson")
+
 
 if __name__ == "__main__":
     unittest.main()
