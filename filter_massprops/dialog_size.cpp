@@ -76,12 +76,15 @@ void letParametersScroll(QDockWidget& dialog) {
 void fitToScreen(QDockWidget& dialog) {
   const QRect screen = dialog.screen()->availableGeometry();
   const QSize most = screen.size() - (dialog.frameGeometry().size() - dialog.size());
-  if (dialog.findChild<QScrollArea*>() == nullptr) {
+  auto* const area = dialog.findChild<QScrollArea*>();
+  if (area == nullptr) {
     const int height = dialog.height();
     letParametersScroll(dialog);
     // MeshLab shrinks its dialog to this size when the help is shown or hidden.
     dialog.setMinimumSize(dialog.minimumSizeHint().width(), std::min(height, most.height()));
     dialog.resize(dialog.minimumSize());
+  } else if (dynamic_cast<ParameterArea*>(area) == nullptr && area->widget() != nullptr) {
+    new WheelScrolls(area->widget());
   }
   if (!dialog.isFloating()) return;
   dialog.resize(dialog.size().boundedTo(most));
