@@ -13,8 +13,8 @@ set(CPACK_PACKAGE_NAME meshlab-massprops)
 set(CPACK_PACKAGE_CONTACT "The massprops authors <massprops@localhost>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "MeshLab filter that hollows models so that their prints behave")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
-    "Adds the filter Mass Property Optimization to MeshLab: it finds the cavity that makes a model
- stand or spin once it is printed.")
+    "Adds the filter Mass Property Optimization to MeshLab: it finds the cavity with which a model
+ stands, spins, floats, hangs or rolls upright once it is printed.")
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 # A plugin runs only in the version it was compiled for.

@@ -59,8 +59,8 @@ void requireClosedManifoldEdges(const TriangleMesh& mesh) {
   }
   if (incoherent > 0) {
     throw InvalidInput("The faces on the two sides of " + count(incoherent, "edge", "edges") +
-                       " are oriented against each other: use Normals > Re-Orient all faces "
-                       "coherentely, then run again.");
+                       " are oriented against each other: use Normals > Re-Orient all faces, "
+                       "then run again.");
   }
 }
 

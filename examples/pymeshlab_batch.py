@@ -60,7 +60,9 @@ def main():
     pymeshlab.load_plugin(str(arguments.plugin.resolve()))
     parameters = {"goal": arguments.goal, "up_axis": arguments.up}
     if arguments.wall is not None:
-        parameters["inner_lower_bound"] = pymeshlab.PureValue(arguments.wall)
+        # Its name in 2022.2 was another.
+        absolute = getattr(pymeshlab, "PureValue", None) or pymeshlab.AbsoluteValue
+        parameters["inner_lower_bound"] = absolute(arguments.wall)
 
     # One for all: PyMeshLab up to 2025.7 still writes to the log of a set in which any filter failed.
     meshes = pymeshlab.MeshSet()
@@ -72,7 +74,8 @@ def main():
         start = time.monotonic()
         try:
             report = hollow(meshes, model, arguments.results / (model.stem + ".stl"), parameters)
-            rows.append({"model": model.name, "error": "", **row_of(report)})
+            rows.append({"model": model.name, "solved": report["solved"], "error": "",
+                         **row_of(report)})
             verdict = "solved" if report["solved"] else "NOT solved"
             print(f"{verdict}, {report['mass_before']:.1f} g -> {report['mass_after']:.1f} g, "
                   f"{time.monotonic() - start:.1f} s")

@@ -2,6 +2,7 @@
 
 #include "core/pipeline.h"
 #include "core/vcg_conversion.h"
+#include "filter_massprops/dialog_size.h"
 #include "filter_massprops/parameters.h"
 
 #include <QApplication>
@@ -69,12 +70,6 @@ double diagonalOf(const MeshModel& layer) {
   return box.isEmpty() ? 0.0 : box.diagonal().norm();
 }
 
-double diagonalOfCurrentLayer(const MeshDocument& document) {
-  // MeshLab asks for the parameters of an empty document, too.
-  const MeshModel* layer = document.mm();
-  return layer == nullptr ? 0.0 : diagonalOf(*layer);
-}
-
 /// The layer's label without the suffix of its file. MeshLab's list of layers hides what comes
 /// after the last dot of a label, hence there is none.
 QString titleOf(const MeshModel& layer) {
@@ -90,6 +85,15 @@ bool inMeshLabsWindow() {
   return std::any_of(windows.begin(), windows.end(), [](const QWidget* window) {
     return qobject_cast<const QMainWindow*>(window) != nullptr;
   });
+}
+
+/// What the dialog offers for the current layer. MeshLab asks for it just before it opens the
+/// dialog.
+RichParameterList dialogFor(const MeshDocument& document) {
+  if (inMeshLabsWindow()) fitDialogToScreen(kName);
+  // The document may be empty.
+  const MeshModel* layer = document.mm();
+  return dialogParameters(layer == nullptr ? 0.0 : diagonalOf(*layer));
 }
 
 /// Adds layers to a document and takes them away again when the rest fails.
@@ -219,7 +223,8 @@ FilterArity MassPropertiesFilter::filterArity(ActionPointer) const {
 }
 
 int MassPropertiesFilter::getPreConditions(ActionPointer) const {
-  return MeshModel::MM_FACENUMBER;
+  // A layer without faces is refused with a sentence that says what to do.
+  return MeshModel::MM_NONE;
 }
 
 int MassPropertiesFilter::postCondition(ActionPointer) const {
@@ -243,7 +248,7 @@ RichParameterList MassPropertiesFilter::initParameterList(const QAction*, const 
 
 RichParameterList MassPropertiesFilter::initParameterList(const QAction*,
                                                           const MeshDocument& document) {
-  return dialogParameters(diagonalOfCurrentLayer(document));
+  return dialogFor(document);
 }
 
 ReturnedValues MassPropertiesFilter::applyFilter(const QAction*,
@@ -277,7 +282,7 @@ void MassPropertiesFilter::initParameterSet(QAction*, MeshModel& mesh, RichParam
 
 void MassPropertiesFilter::initParameterSet(QAction*, MeshDocument& document,
                                             RichParameterList& list) {
-  list.join(dialogParameters(diagonalOfCurrentLayer(document)));
+  list.join(dialogFor(document));
 }
 
 bool MassPropertiesFilter::applyFilter(QAction*, MeshDocument& document,

@@ -83,7 +83,7 @@ class RefusalsTest(HostTest):
     def test_incoherent_orientation(self):
         points, faces = cube()
         faces[7] = faces[7][::-1]
-        self.refuse((points, faces), "orient", ["Re-Orient all faces coherentely"])
+        self.refuse((points, faces), "orient", ["Re-Orient all faces"])
 
     def test_a_surface_that_crosses_itself(self):
         points, faces = cube()

@@ -1,125 +1,15 @@
-"""The filter in MeshLab's window, used with the mouse. Pictures of it are left in the folder
-MASSPROPS_PICTURES."""
-import os
-import pathlib
-import subprocess
-import threading
+"""The filter in MeshLab's window, used with the mouse."""
 import unittest
 
 import numpy as np
 
-from desktop import Desktop, wait_for, write_png
-from host import FILTER, ROOT, SAMPLES, HostTest, cube, host_folder, read_ply, report_in, write_ply
-
-PICTURES = pathlib.Path(os.environ.get("MASSPROPS_PICTURES", ROOT / "build" / "window"))
-CATEGORY = "Remeshing, Simplification and Reconstruction"
-
-
-def parameters(diagonal):
-    """Name, label and tooltip of every parameter, from the plugin's own list."""
-    done = subprocess.run([os.environ["MASSPROPS_LIST_PARAMETERS"], str(diagonal)], check=True,
-                          stdout=subprocess.PIPE)
-    return [line.split("\t") for line in done.stdout.decode().splitlines()]
+import window
+from desktop import wait_for, write_png
+from host import FILTER, SAMPLES, cube, read_ply, report_in, write_ply
+from window import PICTURES, parameters
 
 
-class WindowTest(HostTest):
-    @classmethod
-    def setUpClass(cls):
-        PICTURES.mkdir(parents=True, exist_ok=True)
-        cls.desktop = Desktop()
-        cls.addClassCleanup(cls.desktop.close)
-
-    def open(self, mesh):
-        """Starts MeshLab with a model; ends it after the test."""
-        folder, libraries = host_folder()
-        log = open(self.folder / "meshlab.log", "wb")
-        self.addCleanup(log.close)
-        self.process = subprocess.Popen(
-            [folder / "meshlab", mesh], stdout=log, stderr=log,
-            env=dict(os.environ, LD_LIBRARY_PATH=str(libraries)))
-        self.addCleanup(self.process.wait)
-        self.addCleanup(self.process.kill)
-        self.application = wait_for(
-            lambda: next((a for a in self.desktop.applications()
-                          if a.name.startswith("MeshLab") and a.get_process_id() == self.process.pid),
-                         None), "MeshLab's window")
-        self.window = wait_for(lambda: next((w for w in self.application if w is not None
-                                             and w.getRoleName() == "frame"
-                                             and w.name.startswith("MeshLab")), None),
-                               "MeshLab's main window")
-        self.wait_for_log("Opened mesh")
-        identity = subprocess.run(["xdotool", "search", "--onlyvisible", "--pid",
-                                   str(self.process.pid), "--name", "^MeshLab 20"], check=True,
-                                  stdout=subprocess.PIPE).stdout.split()[0].decode()
-        subprocess.run(["xdotool", "windowmove", identity, "0", "0", "windowsize", "--sync",
-                        identity, "1300", "950"], check=True)
-        # The panel tells the speed of drawing, which is never the same.
-        self.menu("View", "Show Info Panel")
-
-    def log(self):
-        return "\n".join(self.desktop.text(w) for w in self.desktop.all(self.window, "text")
-                         if self.desktop.shown(w))
-
-    def wait_for_log(self, text, seconds=120):
-        def present():
-            self.assertIsNone(self.process.poll(), "MeshLab ended")
-            return text in self.log()
-        wait_for(present, f"'{text}' in the log", seconds)
-
-    def menu(self, *names):
-        above = self.desktop.find(self.window, "menu bar")
-        for name in names:
-            above = self.desktop.find(above, "menu item", name)
-            self.desktop.click(above)
-
-    def open_filter(self):
-        self.menu("Filters", CATEGORY, FILTER)
-        dialog = wait_for(lambda: next((w for w in self.application if w is not None
-                                        and w.name == FILTER), None), "the filter's dialog")
-        self.desktop.find(dialog, "push button", "Apply")
-        return dialog
-
-    def field_beside(self, dialog, label, role):
-        """The widget of that role in the row of a label."""
-        _, y, _, height = self.desktop.box(label)
-        def beside():
-            for widget in self.desktop.all(dialog, role):
-                box = widget.queryComponent().getExtents(self.desktop.atspi.DESKTOP_COORDS)
-                if box.y < y + height and y < box.y + box.height and self.desktop.shown(widget):
-                    return widget
-            return None
-        return wait_for(beside, f"the {role} beside '{label.name}'")
-
-    def choose(self, dialog, label, entry):
-        box = self.field_beside(dialog, self.desktop.find(dialog, "label", label), "combo box")
-        self.desktop.click(box)
-        self.desktop.click(self.desktop.find(box, "list item", entry))
-        wait_for(lambda: box.name == entry, f"'{entry}' to be chosen")
-
-    def layers(self):
-        """Names of the mesh layers, top to bottom."""
-        tree = self.desktop.all(self.window, "tree")[0]
-        cells = self.desktop.all(tree, "table cell")
-        return [cells[i + 2].name for i in range(0, len(cells) - 3, 4)]
-
-    def canvas(self):
-        """Box of the 3D view."""
-        x, y, width, height = self.desktop.box(self.desktop.all(self.window, "split pane")[0])
-        return x + 8, y + 8, width - 16, height - 16
-
-    def eye(self, row):
-        """Shows or hides a layer by a click on its eye."""
-        tree = self.desktop.all(self.window, "tree")[0]
-        self.desktop.click(self.desktop.all(tree, "table cell")[4 * row])
-
-    def view(self, name=None):
-        """What the 3D view shows once it stands still."""
-        self.desktop.mouse(1390, 1090)  # away from the window
-        picture = self.desktop.still_picture(self.canvas())
-        if name:
-            write_png(PICTURES / name, picture)
-        return picture.astype(int)
-
+class FilterTest(window.WindowTest):
     def test_stand(self):
         # MeshLab looks along -z with y up: turned, the model shows its side.
         vertices, faces = read_ply(SAMPLES / "toy_dinosaur.ply")
@@ -182,38 +72,26 @@ class WindowTest(HostTest):
         changed = np.abs(cut - solid).max(axis=2) > 12
         self.assertGreater((changed & shape(cavity)).sum(), 0.5 * shape(cavity).sum())
 
-    def pictures_until_applied(self, box):
-        """The different pictures of a part of the screen until the filter has ended."""
-        pictures = set()
-        ended = threading.Event()
-
-        # The window answers questions only between two steps of the progress.
-        def look():
-            while not ended.wait(0.02):
-                pictures.add(self.desktop.picture(box).tobytes())
-
-        looking = threading.Thread(target=look)
-        looking.start()
-        try:
-            self.wait_for_log("Applied filter " + FILTER)
-        finally:
-            ended.set()
-            looking.join()
-        return pictures
-
-    def test_failure(self):
-        vertices, faces = cube()
-        self.open(write_ply(self.folder / "open.ply", vertices, faces[:-1]))
+    def refuse(self, vertices, faces, *sentences):
+        self.open(write_ply(self.folder / "refused.ply", vertices, faces))
         dialog = self.open_filter()
         self.desktop.click(self.desktop.find(dialog, "push button", "Apply"))
         box = wait_for(lambda: next((w for w in self.application if w is not None
                                      and w.name == "Filter Failure"), None), "the message")
         (message,) = self.desktop.all(box, "label")[-1:]
-        self.assertIn("The surface is open along 3 boundary edges", message.name)
-        self.assertIn("Close Holes", message.name)
+        for sentence in sentences:
+            self.assertIn(sentence, message.name)
         self.desktop.click(self.desktop.find(box, "push button"))
         self.wait_for_log("Filter failed")
-        self.assertEqual(self.layers(), ["open"])
+        self.assertEqual(self.layers(), ["refused"])
+
+    def test_a_hole(self):
+        vertices, faces = cube()
+        self.refuse(vertices, faces[:-1], "The surface is open along 3 boundary edges", "Close Holes")
+
+    def test_points_without_faces(self):
+        vertices, _ = cube()
+        self.refuse(vertices, np.zeros((0, 3), int), "has points but no faces", "Screened Poisson")
 
 
 if __name__ == "__main__":
