@@ -89,6 +89,20 @@ public:
     report.add("stands_" + suffix, isReached(massMoments));
   }
 
+  /// The contact area, and the centres of mass plumb above or beside it.
+  std::string draw(const Moments& before, const Moments& after, Sketch& sketch) const override {
+    std::vector<Vec3> corners;
+    for (const Vec2& p : outline(area_)) corners.emplace_back(p.x(), p.y(), 0.0);
+    sketch.addLoop(corners, kGroundColour);
+    const auto addPlumbLine = [&](const Moments& body, Colour colour) {
+      const Vec3 c = massProperties(body).centerOfMass;
+      sketch.addLine(c, {c.x(), c.y(), 0.0}, colour);
+    };
+    addPlumbLine(before, kBeforeColour);
+    addPlumbLine(after, kAfterColour);
+    return "contact area";
+  }
+
 private:
   double angle(const Moments& massMoments) const {
     return tippingAngle(area_, massProperties(massMoments).centerOfMass);

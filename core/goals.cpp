@@ -16,6 +16,11 @@ Vec3 middleOfTop(const Points& vertices) {
 
 } // namespace
 
+std::string Goal::draw(const Moments& /*before*/, const Moments& /*after*/,
+                       Sketch& /*sketch*/) const {
+  return "";
+}
+
 std::unique_ptr<Goal> makeGoal(const Options& options, const Workpiece& piece,
                                const Points& outer) {
   const Weights& weights = options.weights;

@@ -5,6 +5,7 @@
 #include "core/mass_properties.h"
 #include "core/options.h"
 #include "core/report.h"
+#include "core/sketch.h"
 #include "core/workpiece.h"
 
 #include <memory>
@@ -49,6 +50,9 @@ public:
   /// Adds the goal's own keys with `suffix` ("before", "after") to the report.
   virtual void describe(const Moments& massMoments, const std::string& suffix,
                         Report& report) const = 0;
+  /// Draws, in the working frame, what the verdict goes by on the solid body `before` and on the
+  /// answer `after`, and names it in plain words; nothing but "" where the numbers say it all.
+  virtual std::string draw(const Moments& before, const Moments& after, Sketch& sketch) const;
 };
 
 // One factory a goal. `lengthUnit`: model units per working unit, for the report. Formulas in

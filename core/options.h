@@ -67,6 +67,8 @@ struct Options {
   double waterLevel = 0.5;
   double waterDensity = 1.0; ///< Float: g/cm³
   double targetMass = 0.0;   ///< Mass: g; 0 is as light as possible
+  /// Whether the result brings a picture of the answer.
+  bool showAnswer = false;
   /// Rounds points to what the caller can store (a float mesh, say). What is delivered, checked
   /// and reported is the rounded surface. Empty: double precision.
   std::function<Points(const Points&)> representable;

@@ -189,6 +189,10 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   const std::unique_ptr<Goal> reached =
       cavity.status == CavityStatus::Found ? makeGoal(options, piece, cavity.outer) : nullptr;
   result.report = hollowingReport(piece, task, reached ? *reached : *goal, cavity, options, stages);
+  if (reached && options.showAnswer) {
+    tell(97, "Picture of the answer");
+    result.picture = pictureOf(piece, task, *reached, cavity);
+  }
   result.report.add("seconds_total", total.seconds());
   tell(100, "Done");
   return result;

@@ -106,11 +106,7 @@ public:
 
   /// `quality`: a value for every vertex, or none.
   void add(const TriangleMesh& surface, const char* what, const Vector& quality = {}) {
-    added_.reserve(added_.size() + 1);
-    MeshModel* layer = document_.addNewMesh("", titleOf(input_) + " " + what, false);
-    added_.push_back(layer);
-    toVcg(surface, placement_, layer->cm);
-    layer->cm.Tr = input_.cm.Tr;
+    MeshModel* layer = append(surface, what);
     if (quality.size() > 0) {
       layer->updateDataMask(MeshModel::MM_VERTQUALITY);
       Eigen::Index v = 0;
@@ -119,24 +115,51 @@ public:
     updateBoxAndNormals(*layer);
   }
 
+  void add(const ColouredMesh& surface, const std::string& what) {
+    if (surface.mesh.faces.rows() == 0) return;
+    MeshModel* layer = append(surface.mesh, what);
+    layer->updateDataMask(MeshModel::MM_VERTCOLOR);
+    auto colour = surface.colours.begin();
+    for (auto& vertex : layer->cm.vert) {
+      vertex.C() = vcg::Color4b(colour->red, colour->green, colour->blue, 255);
+      ++colour;
+    }
+    updateBoxAndNormals(*layer);
+    pictures_.push_back(layer);
+  }
+
   void keep() {
     kept_ = true;
     if (!added_.empty()) document_.setCurrentMesh(added_.back()->id());
   }
 
-  /// The cavity lies inside of the other layers: they are hidden, so that one sees it.
-  void showLastOnly() {
+  /// The pictures alone or, without any, the last layer, which lies inside of the others.
+  void showAnswerOnly() {
     document_.setVisible(input_.id(), false);
-    for (std::size_t i = 0; i + 1 < added_.size(); ++i) {
-      document_.setVisible(added_[i]->id(), false);
+    for (std::size_t i = 0; i < added_.size(); ++i) {
+      const bool isPicture =
+          std::find(pictures_.begin(), pictures_.end(), added_[i]) != pictures_.end();
+      const bool isLast = i + 1 == added_.size();
+      document_.setVisible(added_[i]->id(), pictures_.empty() ? isLast : isPicture);
     }
   }
 
 private:
+  MeshModel* append(const TriangleMesh& surface, const std::string& what) {
+    added_.reserve(added_.size() + 1);
+    MeshModel* layer =
+        document_.addNewMesh("", titleOf(input_) + " " + QString::fromStdString(what), false);
+    added_.push_back(layer);
+    toVcg(surface, placement_, layer->cm);
+    layer->cm.Tr = input_.cm.Tr;
+    return layer;
+  }
+
   MeshDocument& document_;
   const MeshModel& input_;
   Placement placement_;
   std::vector<MeshModel*> added_;
+  std::vector<const MeshModel*> pictures_;
   bool kept_ = false;
 };
 
@@ -316,6 +339,10 @@ ReturnedValues MassPropertiesFilter::optimize(MeshDocument& document,
 
   NewLayers layers(document, *input);
   if (result.outer) layers.add(*result.outer, "outer offset surface");
+  if (result.picture) {
+    layers.add(result.picture->cutOpen, "cut open");
+    layers.add(result.picture->marks, result.picture->marksName);
+  }
   const bool hasCavity = result.inner.faces.rows() > 0;
   if (hasCavity) layers.add(result.inner, "inner offset surface", result.innerWall);
   layers.keep();
@@ -326,11 +353,15 @@ ReturnedValues MassPropertiesFilter::optimize(MeshDocument& document,
     const QVariant returned = std::visit(ToVariant{}, value);
     if (returned.isValid()) values[key] = returned;
   }
-  if (hasCavity && inMeshLabsWindow()) {
-    layers.showLastOnly();
-    write(
-        "Only the cavity is shown now; Back-Face > Double lights it from outside. Before you "
-        "flatten or cut open (Ctrl and mouse wheel), show the outer layer by a click on its eye.");
+  if ((hasCavity || result.picture) && inMeshLabsWindow()) {
+    layers.showAnswerOnly();
+    write(result.picture
+              ? "Only the answer is shown now: the model cut open, and the centre of mass before "
+                "(red) and after (green). Before you flatten, hide these two layers and show the "
+                "outer and the inner one by a click on their eyes."
+              : "Only the cavity is shown now; Back-Face > Double lights it from outside. Before "
+                "you flatten or cut open (Ctrl and mouse wheel), show the outer layer by a click "
+                "on its eye.");
   }
   return values;
 }

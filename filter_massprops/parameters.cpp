@@ -146,6 +146,12 @@ RichParameterList dialogParameters(double diagonal) {
             "themselves.");
   addWeight(list, "opt_weight_6", weights.outer, "Weight 6: outer displacement",
             "Of the mean squared displacement of the outer surface.");
+  list.addParam(RichBool("show_layers", defaults.showAnswer, "Show the answer (more layers)",
+                         "Adds a layer with the model cut open along the vertical plane through "
+                         "its centre of mass, and one with the centre of mass before (red) and "
+                         "after (green) and what it is judged by: contact area (Stand, Stand empty "
+                         "and filled, Roll upright), axis (Spin, Yo-yo), waterline (Float) or "
+                         "plumb line (Hang)."));
   return list;
 }
 
@@ -175,6 +181,7 @@ Options optionsFrom(const RichParameterList& parameters) {
   options.waterLevel = number(parameters, "water_level");
   options.waterDensity = number(parameters, "water_density");
   options.targetMass = number(parameters, "target_mass");
+  options.showAnswer = parameters.getBool("show_layers");
   return options;
 }
 

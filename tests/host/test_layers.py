@@ -4,7 +4,7 @@ import unittest
 import numpy as np
 
 import measure
-from host import (SAMPLES, HostTest, bounds_a_volume, changed_script, layers_of, meshlabserver,
+from host import (SAMPLES, HostTest, bounds_a_volume, changed_script, colours_of, layers_of, meshlabserver,
                   read_ply, report_in, script_of, shutil, write_ply, write_project)
 
 TOP = SAMPLES / "tilted_ellipsoid_top.ply"
@@ -41,6 +41,43 @@ class LayersTest(HostTest):
         self.assertEqual(names, ["model_out.ply", "modelouteroffsetsurface_out.ply",
                                  "modelinneroffsetsurface_out.ply"])
         self.assertEqual(bounds_a_volume(self.folder / names[1], self.folder / names[2]), "")
+
+    def test_the_answer_is_shown_by_two_layers_before_the_cavity(self):
+        script = changed_script(script_of("toy_dinosaur"), self.folder / "s.mlx",
+                                show_layers="true")
+        mesh = shutil.copy(SAMPLES / "toy_dinosaur.ply", self.folder / "model.ply")
+        layers, report = self.project(mesh, script)
+        names = [name for name, _ in layers]
+        self.assertEqual(names, ["model_out.ply", "modelcutopen_out.ply",
+                                 "modelcentreofmassandcontactarea_out.ply",
+                                 "modelinneroffsetsurface_out.ply"])
+        outer, cut, marks, inner = (read_ply(self.folder / name) for name in names)
+        size = np.linalg.norm(np.ptp(outer[0], axis=0))
+        before, after = report["center_of_mass_before"], report["center_of_mass_after"]
+
+        # The section lies in the vertical plane through both centres of mass; one side is left.
+        across = np.cross(before - after, [0, 0, 1])
+        across /= np.linalg.norm(across)
+        side = (cut[0] - after) @ across
+        self.assertLess(min(side.max(), -side.min()), 1e-5 * size)
+        on_plane = np.abs(side[cut[1]]).max(axis=1) < 1e-5 * size
+        a, b, c = cut[0][cut[1][on_plane]].transpose(1, 0, 2)
+        section = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
+        self.assertAlmostEqual(section, measure.section_area(outer, after, across)
+                               - measure.section_area(inner, after, across), delta=1e-3 * section)
+
+        # Balls about the centres, red and green, and lines on the ground round the feet.
+        red, green, blue = (marks[0][colours_of(self.folder / names[2])[:, channel] > 120]
+                            for channel in (0, 1, 2))
+        for centre, ball in ((before, red), (after, green)):
+            distance = np.linalg.norm(ball - centre, axis=1)
+            on_ball = distance < 0.0155 * size
+            self.assertGreater(on_ball.sum(), 200)
+            np.testing.assert_allclose(ball[on_ball].mean(axis=0), centre, atol=1e-3 * size)
+        self.assertLess(np.abs(blue[:, 2] - outer[0][:, 2].min()).max(), 0.004 * size)
+        hull = measure.contact_polygon(outer[0])
+        for corner in hull:
+            self.assertLess(np.linalg.norm(blue[:, :2] - corner, axis=1).min(), 0.004 * size)
 
     def test_the_input_layer_is_saved_as_if_the_filter_had_not_run(self):
         (before, *_), _ = self.project(self.mesh())
