@@ -17,29 +17,21 @@ using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 /// Of the body's size: cut points are rounded.
 constexpr double kOnPlane = 1e-9;
 
-/// Faces with their corners the other way round for a surface that bounds the material from inside.
-void append(const TriangleMesh& part, bool turned, Mesh& mesh) {
-  const auto first = static_cast<Mesh::size_type>(mesh.number_of_vertices());
-  for (Eigen::Index v = 0; v < part.vertices.rows(); ++v) {
-    mesh.add_vertex({part.vertices(v, 0), part.vertices(v, 1), part.vertices(v, 2)});
-  }
-  const auto at = [&](Eigen::Index f, int k) {
-    return Mesh::Vertex_index(first + static_cast<Mesh::size_type>(part.faces(f, k)));
-  };
-  for (Eigen::Index f = 0; f < part.faces.rows(); ++f) {
-    mesh.add_face(at(f, 0), at(f, turned ? 2 : 1), at(f, turned ? 1 : 2));
-  }
-}
-
 } // namespace
 
-ColouredMesh cutaway(const TriangleMesh& outer, const TriangleMesh& inner, const Vec3& point,
+ColouredMesh cutaway(const TriangleMesh& material, Eigen::Index cavityVertices, const Vec3& point,
                      const Vec3& normal) {
   Mesh mesh;
   mesh.set_recycle_garbage(false); // vertices are known by their numbers
-  append(outer, false, mesh);
-  const auto outerEnd = static_cast<std::size_t>(mesh.number_of_vertices());
-  append(inner, true, mesh);
+  for (Eigen::Index v = 0; v < material.vertices.rows(); ++v) {
+    mesh.add_vertex({material.vertices(v, 0), material.vertices(v, 1), material.vertices(v, 2)});
+  }
+  for (Eigen::Index f = 0; f < material.faces.rows(); ++f) {
+    const auto at = [&](int k) {
+      return Mesh::Vertex_index(static_cast<Mesh::size_type>(material.faces(f, k)));
+    };
+    mesh.add_face(at(0), at(1), at(2));
+  }
   CGAL::Polygon_mesh_processing::clip(
       mesh,
       Kernel::Plane_3(Kernel::Point_3(point.x(), point.y(), point.z()),
@@ -47,7 +39,8 @@ ColouredMesh cutaway(const TriangleMesh& outer, const TriangleMesh& inner, const
       CGAL::parameters::clip_volume(true));
 
   const double onPlane =
-      kOnPlane * (outer.vertices.colwise().maxCoeff() - outer.vertices.colwise().minCoeff()).norm();
+      kOnPlane *
+      (material.vertices.colwise().maxCoeff() - material.vertices.colwise().minCoeff()).norm();
   const auto positionOf = [&](Mesh::Vertex_index v) {
     const Kernel::Point_3& p = mesh.point(v);
     return Vec3(p.x(), p.y(), p.z());
@@ -72,8 +65,8 @@ ColouredMesh cutaway(const TriangleMesh& outer, const TriangleMesh& inner, const
     }
     const std::size_t least = std::min({corners[0].idx(), corners[1].idx(), corners[2].idx()});
     const Kind kind = std::all_of(corners.begin(), corners.end(), isOnPlane) ? Cut
-                      : least < outerEnd                                     ? Outer
-                                                                             : Cavity;
+                      : least < static_cast<std::size_t>(cavityVertices)     ? Cavity
+                                                                             : Outer;
     for (int k = 0; k < 3; ++k) {
       const Mesh::Vertex_index v = corners[static_cast<std::size_t>(k)];
       int& number = numbers[kind][v.idx()];

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace massprops {
 namespace {
@@ -79,7 +80,10 @@ std::string message(const CavityTask& task, const Goal& goalAfter, const CavityR
   std::string sentence =
       goalAfter.isReached(after.mass) ? "The goal is reached" : "The goal is missed";
   if (cavity.status == CavityStatus::NoRoom) {
-    return sentence + " by the solid model; nothing can be hollowed at this wall: " +
+    return sentence +
+           (task.open != nullptr
+                ? " by the solid model; there is no room for an open shell with this wall: "
+                : " by the solid model; nothing can be hollowed at this wall: ") +
            (largestWall > 0.0
                 ? "lower inner_lower_bound to " + toString(largestWall) + " or less."
                 : "lower inner_lower_bound, and refine the model with Remeshing > Isotropic "
@@ -97,6 +101,19 @@ std::string message(const CavityTask& task, const Goal& goalAfter, const CavityR
              ? sentence + "; all constraints hold."
              : sentence + ": with the best cavity found " + goalAfter.worstViolation(after.mass) +
                    "." + outlook(task);
+}
+
+/// Vertices of the surface, lids apart, that have no cavity behind them.
+int solidVertices(const Workpiece& piece, const CavityResult& cavity) {
+  const Faces& skin = piece.open ? piece.open->skin : piece.faces;
+  std::vector<char> mark(static_cast<std::size_t>(piece.vertices.rows()), 0);
+  for (Eigen::Index f = 0; f < skin.rows(); ++f) {
+    for (const int v : skin.row(f)) {
+      const auto i = static_cast<std::size_t>(v);
+      mark[i] = cavity.status == CavityStatus::Found ? cavity.cavity.solid[i] : 1;
+    }
+  }
+  return static_cast<int>(std::count(mark.begin(), mark.end(), 1));
 }
 
 } // namespace
@@ -151,9 +168,8 @@ Report hollowingReport(const Workpiece& piece, const CavityTask& task, const Goa
   }
   report.add("repairs", stages.repairs);
   report.add("skeleton_failures", stages.skeletonFailures);
-  report.add("solid_vertices", hollow ? static_cast<int>(std::count(cavity.cavity.solid.begin(),
-                                                                    cavity.cavity.solid.end(), 1))
-                                      : static_cast<int>(piece.vertices.rows()));
+  if (piece.open) report.add("openings", piece.open->openings);
+  report.add("solid_vertices", solidVertices(piece, cavity));
   report.add("stop_reason", cavity.stopReason);
   report.add("rounds", cavity.rounds);
   report.add("evaluations", cavity.evaluations);

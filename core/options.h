@@ -67,6 +67,9 @@ struct Options {
   double waterLevel = 0.5;
   double waterDensity = 1.0; ///< Float: g/cm³
   double targetMass = 0.0;   ///< Mass: g; 0 is as light as possible
+  /// Whether a surface with boundary loops is taken as one side of a shell; otherwise it is
+  /// refused.
+  bool openSurface = false;
   /// Whether the result brings a picture of the answer.
   bool showAnswer = false;
   /// Rounds points to what the caller can store (a float mesh, say). What is delivered, checked
@@ -76,5 +79,7 @@ struct Options {
 
 /// \throw InvalidInput when an option is absurd in itself or for a model of that size
 void requireSensible(const Options& options, Eigen::Index vertexCount, double diagonal);
+/// \throw InvalidInput when an option is absurd for a surface that is open
+void requireSensibleForShell(const Options& options);
 
 } // namespace massprops

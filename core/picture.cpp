@@ -5,6 +5,7 @@
 #include "core/cutaway.h"
 #include "core/workpiece.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace massprops {
@@ -46,8 +47,13 @@ Picture pictureOf(const Workpiece& piece, const CavityTask& task, const Goal& go
   Vec3 normal = Vec3(along.y(), -along.x(), 0.0).normalized();
   if (normal.x() < normal.y()) normal *= -1.0;
   Picture picture;
-  picture.cutOpen = cutaway({cavity.outer, task.faces},
-                            submesh(cavity.inner, cavity.cavity.faces).mesh, after, normal);
+  const Eigen::Index n = piece.vertices.rows();
+  const Submesh material =
+      submesh(stacked(cavity.inner.topRows(n), cavity.outer),
+              shellOf(piece.open ? piece.open->skin : task.faces, cavity.cavity.faces, n));
+  const auto cavityVertices = std::count_if(material.vertexOf.begin(), material.vertexOf.end(),
+                                            [&](int v) { return v < n; });
+  picture.cutOpen = cutaway(material.mesh, cavityVertices, after, normal);
 
   Sketch sketch(cavity.outer);
   sketch.addBall(before, kBeforeColour);

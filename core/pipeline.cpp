@@ -80,9 +80,11 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   Stages stages;
 
   tell(0, "Checking the model");
-  const Solid solid = makeSolid(model);
+  const Solid solid = makeSolid(model, options.openSurface);
   requireSensible(options, solid.vertices().rows(), solid.diagonal());
   const Workpiece piece = makeWorkpiece(solid, options);
+  if (piece.open) requireSensibleForShell(options);
+  const Faces& skin = piece.open ? piece.open->skin : piece.faces;
 
   // Skeleton and basis are smooth: a coarse copy of the surface carries them. The basis does not
   // need the skeleton: both cores work.
@@ -109,7 +111,7 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
         basis = harmonicBasis(coarse.vertices, coarse.faces, coarseL, coarseArea / coarseArea.sum(),
                               options.basisSize);
         stages.secondsBasis = time.seconds();
-        if (options.outerUpperBound > 0.0) return;
+        if (options.outerUpperBound > 0.0 || piece.open) return;
         const Stopwatch limitTime;
         const AdmissibleCells cells =
             admissibleCells(piece.vertices, piece.faces, coarse, piece.wall);
@@ -122,7 +124,11 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
 
   tell(65, "Offset directions");
   const Points axis = smoothedOverSurface(skeleton.points, coarseL, coarseArea, kDiffusionLength);
-  const OffsetField field = offsetField(piece.vertices, piece.faces, proxy.interpolation * axis);
+  Points fineAxis = proxy.interpolation * axis;
+  if (piece.open) {
+    fineAxis = levelAtRim(piece.vertices, piece.faces, piece.isLid, *piece.open, fineAxis);
+  }
+  const OffsetField field = offsetField(piece.vertices, skin, fineAxis);
 
   tell(70, "Optimization");
   const auto representable = [&](const Points& points) {
@@ -133,13 +139,14 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
                              : SparseMatrix();
   CavityTask task{piece.vertices, piece.faces, field, basis, L, mass, *goal, options.weights};
   if (!proxy.interpolation.isIdentity()) task.proxy = &proxy;
+  if (piece.open) task.open = &*piece.open;
   task.solidMoments = solidMoments;
   task.fillDensity = fillingSeenBy(options);
   task.limit = limit;
   task.wall = piece.wall;
   task.inputMoments = solidMoments + moments(piece.cavities.vertices, piece.cavities.faces);
   const auto boundsFor = [&](double wall) {
-    return keepingWall(piece.vertices, piece.faces, field,
+    return keepingWall(piece.vertices, skin, field,
                        innerBounds(field, wall, options.innerUpperBound), wall);
   };
   task.inner = boundsFor(task.wall);
@@ -157,7 +164,8 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
     tell(percent, "Optimization");
   };
   const auto isUseless = [&](const CavityResult& found) {
-    return found.status == CavityStatus::Found && !isBetterThanSolid(task, found);
+    // A shell is asked for whatever a solid body could do.
+    return !piece.open && found.status == CavityStatus::Found && !isBetterThanSolid(task, found);
   };
   CavityResult cavity = searchCavity(task, tellSearch);
   if (task.limit && isUseless(cavity)) {
@@ -172,8 +180,15 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   tell(95, "Report");
   Result result;
   if (cavity.status == CavityStatus::Found) {
-    Submesh inner = submesh(representable(toModel(piece.frame, inSolidOrder(piece, cavity.inner))),
-                            inSolidOrder(piece, cavity.cavity.faces));
+    const Eigen::Index n = piece.vertices.rows();
+    Points positions = representable(toModel(piece.frame, inSolidOrder(piece, cavity.inner)));
+    Faces faces = cavity.cavity.faces;
+    if (piece.open) {
+      // The strips end in the very points of the model.
+      positions.bottomRows(n) = solid.vertices();
+      faces = withoutLids(faces, n);
+    }
+    Submesh inner = submesh(positions, inSolidOrder(piece, faces));
     result.inner = std::move(inner.mesh);
     if (result.inner.faces.rows() > 0) {
       result.inner.faces.col(1).swap(result.inner.faces.col(2));

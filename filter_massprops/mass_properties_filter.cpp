@@ -23,11 +23,9 @@ const char* const kName = "Mass Property Optimization";
 // has to wrap, and does not scroll.
 const char* const kInfo =
     "<p style='white-space:pre'>"
-    "Finds the cavity with which a closed model stands, spins, floats, hangs or rolls upright\n"
-    "once it is printed. The outer surface stays; the cavity is a new layer. Its normals point\n"
-    "into the cavity, so that both layers together bound the material (Flatten Visible Layers).\n"
-    "Its vertex quality is the wall thickness. Lengths are read as millimetres. The numbers\n"
-    "before and after are in the log.\n"
+    "Finds the cavity with which a model stands, spins, floats, hangs or rolls upright once it is\n"
+    "printed: a new layer whose normals point into the cavity, so that both layers together bound\n"
+    "the material. Its vertex quality is the wall thickness; the numbers are in the log.\n"
     "See <a href='https://doi.org/10.1145/2766955'>Musialski et al. 2015</a>, "
     "<a href='https://doi.org/10.1145/2461912.2461957'>Pr\u00e9vost et al. 2013</a>, "
     "<a href='https://doi.org/10.1145/2601097.2601157'>B\u00e4cher et al. 2014</a>, "

@@ -80,13 +80,18 @@ TEST(Sketch, BallsAndLinesAreClosedAndAsLargeAsTheyShouldBe) {
   for (const Colour colour : line.mesh().colours) EXPECT_TRUE(isColour(colour, kBeforeColour));
 }
 
+/// A body with a cavity; the cavity's vertices come first.
+TriangleMesh material(const TriangleMesh& outer, const TriangleMesh& inner) {
+  return joined(reversed(inner), outer);
+}
+
 TEST(Cutaway, HalvesTheMaterialOfAHollowBox) {
   const TriangleMesh outer = box({4.0, 6.0, 8.0}, 5);
   const TriangleMesh inner = box({2.0, 3.0, 4.0}, 3);
   // A plane that meets no vertex.
   const Vec3 point(0.0, 0.3, 0.0);
   const Vec3 normal(0.0, 2.0, 0.0);
-  const ColouredMesh half = cutaway(outer, inner, point, normal);
+  const ColouredMesh half = cutaway(material(outer, inner), inner.vertices.rows(), point, normal);
   EXPECT_LE(half.mesh.vertices.col(1).maxCoeff(), 0.3 + 1e-12);
 
   const TriangleMesh cut = partOf(half, kCutColour);
@@ -99,12 +104,11 @@ TEST(Cutaway, HalvesTheMaterialOfAHollowBox) {
 }
 
 TEST(Cutaway, CutsThroughVerticesAndSolidBodies) {
-  const ColouredMesh half = cutaway(box({2.0, 2.0, 2.0}, 4), {}, Vec3::Zero(), Vec3::UnitX());
+  const ColouredMesh half = cutaway(box({2.0, 2.0, 2.0}, 4), 0, Vec3::Zero(), Vec3::UnitX());
   EXPECT_NEAR(areaOf(partOf(half, kCutColour)), 4.0, 1e-9);
   EXPECT_EQ(partOf(half, kCavityColour).faces.rows(), 0);
   EXPECT_NEAR(moments(half.mesh.vertices, half.mesh.faces)[0], 4.0, 1e-9);
-  EXPECT_EQ(cutaway(box({1.0, 1.0, 1.0}), {}, {-1.0, 0.0, 0.0}, Vec3::UnitX()).mesh.faces.rows(),
-            0);
+  EXPECT_EQ(cutaway(box({1.0, 1.0, 1.0}), 0, {-1.0, 0.0, 0.0}, Vec3::UnitX()).mesh.faces.rows(), 0);
 }
 
 TEST(LevelLines, GoRoundTheBody) {

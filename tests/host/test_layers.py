@@ -101,6 +101,47 @@ class LayersTest(HostTest):
         for word in ("skeleton", "basis", "Optimization", "Report"):
             self.assertRegex(log, f"(?m)^[A-Z]?[A-Za-z, ]*{word}[A-Za-z, ]*$")
 
+    def test_an_open_surface_becomes_one_closed_shell(self):
+        """A leaning vase: with its inside it is a solid that stands, a wall thick but at the rim."""
+        rings, around = 31, 48
+        t = np.linspace(0, 1, rings)
+        angle = np.arange(around) * 2 * np.pi / around
+        radius = 10 + 16 * np.sin(np.pi / 2 * t)
+        wall = np.stack([radius[:, None] * np.cos(angle) + 20 * t[:, None],
+                         radius[:, None] * np.sin(angle), 80 * t[:, None] + 0 * angle],
+                        axis=2).reshape(-1, 3)
+        index = np.arange(rings * around).reshape(rings, around)
+        a, b = index[:-1], index[1:]
+        faces = [np.stack([a, np.roll(a, -1, 1), np.roll(b, -1, 1)], 2),
+                 np.stack([a, np.roll(b, -1, 1), b], 2)]
+        foot = np.stack([np.full(around, rings * around), np.roll(index[0], -1), index[0]], 1)
+        faces = np.concatenate([f.reshape(-1, 3) for f in faces] + [foot])
+        mesh = write_ply(self.folder / "vase.ply", np.vstack([wall, [0, 0, 0]]), faces)
+        script = changed_script(script_of("leaning_ring"), self.folder / "s.mlx",
+                                open_surface="true", inner_lower_bound=1)
+        layers, report = self.project(mesh, script)
+        names = [name for name, _ in layers]
+        self.assertEqual(names, ["vase_out.ply", "vaseinneroffsetsurface_out.ply"])
+        self.assertEqual(report["openings"], 1)
+        self.assertFalse(report["stands_before"])
+        self.assertTrue(report["solved"], report["message"])
+
+        self.assertEqual(bounds_a_volume(*(self.folder / name for name in names)), "")
+        outer, inner = (read_ply(self.folder / name) for name in names)
+        np.testing.assert_array_equal(outer[0], read_ply(mesh)[0].astype(np.float32))
+        mass, centre, _ = measure.hollow_body(outer, inner, 1.24, reference=outer[0].mean(axis=0))
+        self.assertAlmostEqual(report["mass_after"] / mass, 1.0, delta=1e-6)
+        np.testing.assert_allclose(report["center_of_mass_after"], centre, atol=1e-4)
+        self.assertAlmostEqual(report["tip_angle_after"], measure.tipping_angle(outer[0], centre),
+                               delta=1e-3)
+        # The strip ends in the rim's very points.
+        on_rim = outer[0][np.isclose(outer[0][:, 2], 80)]
+        shared = {tuple(p) for p in inner[0]} & {tuple(p) for p in outer[0]}
+        self.assertEqual(shared, {tuple(p) for p in on_rim})
+        rest = inner[1][~np.isin(inner[1], [i for i, p in enumerate(inner[0])
+                                            if tuple(p) in shared]).any(axis=1)]
+        self.assertGreater(measure.surface_distance(outer, (inner[0], rest)), 0.99)
+
     def placed(self, matrix):
         """Runs on a layer with that matrix; checks that the new layer shares it, that both bound a
         volume in the layer's coordinates, and that the report speaks about the world."""
