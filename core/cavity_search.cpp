@@ -320,6 +320,13 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
 
 } // namespace
 
+void addEffort(const CavityResult& other, CavityResult& result) {
+  result.rounds += other.rounds;
+  result.evaluations += other.evaluations;
+  result.secondsOptimization += other.secondsOptimization;
+  result.secondsInspection += other.secondsInspection;
+}
+
 CavityResult searchCavity(const CavityTask& task, const std::function<void(double)>& progress) {
   // In thin sheets whose triangles are large, what the optimisation bends may fold everywhere.
   CavityResult all;
@@ -332,10 +339,7 @@ CavityResult searchCavity(const CavityTask& task, const std::function<void(doubl
   for (const double freedom : {1.0, 0.3, 0.0}) {
     CavityResult result = searchWithin(task, freedom, tell);
     const bool hopeless = result.rounds == 1;
-    result.rounds += all.rounds;
-    result.evaluations += all.evaluations;
-    result.secondsOptimization += all.secondsOptimization;
-    result.secondsInspection += all.secondsInspection;
+    addEffort(all, result);
     all = std::move(result);
     const bool found = all.status == CavityStatus::Found;
     if ((found && all.inspection.components > 0) || hopeless) return all;

@@ -61,6 +61,9 @@ struct CavityResult {
   double secondsInspection = 0.0;
 };
 
+/// Counts the work that went into `other` to that of `result`.
+void addEffort(const CavityResult& other, CavityResult& result);
+
 /// The cavity that serves the goal best among those that pass inspection. Where a cavity crosses
 /// itself or comes too near to the outer surface the bounds close in, and what is left without room
 /// becomes solid; after a bounded number of rounds all that still fails becomes solid, so that

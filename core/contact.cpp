@@ -127,6 +127,7 @@ std::vector<Vec2> outline(const ContactArea& area) {
   if (!area.radii) return area.polygon;
   constexpr int kCorners = 64;
   std::vector<Vec2> corners;
+  corners.reserve(kCorners);
   for (int i = 0; i < kCorners; ++i) {
     corners.emplace_back(area.radii->cwiseProduct(direction(2.0 * kPi * i / kCorners)));
   }

@@ -27,6 +27,13 @@ struct GoalConstraints {
   MomentGradients gradients;
 };
 
+/// What a verdict that is one number t, the greater the better, asks of a body: it is at least t
+/// exactly where all values are ≤ 0. `slopes`: the values' derivatives by t, r entries.
+struct VerdictBounds {
+  GoalConstraints constraints;
+  Vector slopes;
+};
+
 /// A goal sees a body through its ten mass moments M in the working frame, the material's density
 /// being 1: M = outer − (1 − f) inner with f the filling's density, so that any function of M is
 /// one of the cavity's moments with dM/d(inner) = f − 1. f is the `fillDensity` of the task, see
@@ -50,6 +57,11 @@ public:
   /// Adds the goal's own keys with `suffix` ("before", "after") to the report.
   virtual void describe(const Moments& massMoments, const std::string& suffix,
                         Report& report) const = 0;
+  /// Bounds of the verdict at `level`; none where it is more than one number. Each times the mass
+  /// is linear in the moments.
+  virtual VerdictBounds verdictBounds(const Moments& massMoments, double level) const;
+  /// What the best of all bodies reaches, in words, when no body holds all constraints.
+  virtual std::string bestInWords(const Moments& massMoments) const;
   /// Draws, in the working frame, what the verdict goes by on the solid body `before` and on the
   /// answer `after`, and names it in plain words; nothing but "" where the numbers say it all.
   virtual std::string draw(const Moments& before, const Moments& after, Sketch& sketch) const;

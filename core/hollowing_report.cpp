@@ -9,8 +9,6 @@ namespace {
 
 /// Constraints hold when they are violated by no more than this share of the model's size.
 constexpr double kFeasibility = 1e-6;
-/// The limit is known less exactly.
-constexpr double kReachable = 1e-4;
 
 /// The body that a search ends with, measured on its triangles.
 struct Body {
@@ -42,6 +40,14 @@ Body hollowBody(const CavityTask& task, const CavityResult& cavity) {
   return body;
 }
 
+bool servesBetter(const CavityTask& task, const Body& a, const Body& b) {
+  const bool constrained = task.weights.constraints > 0.0;
+  if (constrained && std::max(a.violation, b.violation) > kFeasibility) {
+    return a.violation < b.violation;
+  }
+  return a.objective < b.objective;
+}
+
 /// A body in the model's own coordinates and in grams.
 MassProperties inModel(const Moments& massMoments, const Frame& frame, double density) {
   const MassProperties working = massProperties(massMoments);
@@ -70,9 +76,11 @@ double gapToLimit(const Limit& limit, const Body& before, const Body& after) {
 /// What a cavity of any shape could do about a goal that is missed.
 std::string outlook(const CavityTask& task) {
   if (!task.limit) return "";
-  if (task.limit->violation <= kReachable) return " A cavity of another shape could reach it.";
-  return " No cavity of any shape that keeps this wall can reach it: at best " +
-         task.goal.worstViolation(task.limit->massMoments) + ".";
+  if (task.limit->violation <= Limit::kReachable) {
+    return " A cavity of another shape could reach it.";
+  }
+  return " No cavity of any shape that keeps this wall can reach it: " +
+         task.goal.bestInWords(task.limit->bestVerdict.value_or(task.limit->massMoments)) + ".";
 }
 
 std::string message(const CavityTask& task, const Goal& goalAfter, const CavityResult& cavity,
@@ -90,8 +98,10 @@ std::string message(const CavityTask& task, const Goal& goalAfter, const CavityR
                   "Explicit Remeshing, for no thinner wall was found to leave room either.");
   }
   if (cavity.status == CavityStatus::NoGain) {
-    return sentence + " by the solid model, and no cavity with this wall was found to serve it "
-                      "better.";
+    return sentence +
+           " by the solid model, and no cavity with this wall was found to serve it "
+           "better." +
+           (before.violation > kFeasibility ? outlook(task) : "");
   }
   if (task.goal.isReached(before.mass)) sentence += " (by the solid model too)";
   if (cavity.inspection.components == 0) {
@@ -119,13 +129,18 @@ int solidVertices(const Workpiece& piece, const CavityResult& cavity) {
 } // namespace
 
 bool isBetterThanSolid(const CavityTask& task, const CavityResult& cavity) {
-  const Body solid = inputBody(task);
-  const Body hollow = hollowBody(task, cavity);
-  const bool constrained = task.weights.constraints > 0.0;
-  if (constrained && std::max(solid.violation, hollow.violation) > kFeasibility) {
-    return hollow.violation < solid.violation;
-  }
-  return hollow.objective < solid.objective;
+  return servesBetter(task, hollowBody(task, cavity), inputBody(task));
+}
+
+bool isBetter(const CavityTask& task, const CavityResult& cavity, const CavityResult& other) {
+  if (cavity.status != CavityStatus::Found) return false;
+  return other.status != CavityStatus::Found ||
+         servesBetter(task, hollowBody(task, cavity), hollowBody(task, other));
+}
+
+double gapToLimit(const CavityTask& task, const CavityResult& cavity) {
+  if (!task.limit || cavity.status != CavityStatus::Found) return 0.0;
+  return gapToLimit(*task.limit, inputBody(task), hollowBody(task, cavity));
 }
 
 Report hollowingReport(const Workpiece& piece, const CavityTask& task, const Goal& goalAfter,
@@ -160,6 +175,7 @@ Report hollowingReport(const Workpiece& piece, const CavityTask& task, const Goa
     report.add("objective_limit", task.limit->objective);
     report.add("gap_to_limit", gapToLimit(*task.limit, before, after));
     task.goal.describe(task.limit->massMoments, "limit", report);
+    if (task.limit->bestVerdict) task.goal.describe(*task.limit->bestVerdict, "best", report);
   }
   report.add("min_wall", hasCavity ? cavity.inspection.leastWall * piece.frame.length : 0.0);
   report.add("cavity_components", hollow ? cavity.inspection.components : 0);

@@ -23,6 +23,9 @@ namespace {
 /// Of the diagonal: smooths the noise of the skeleton's correspondence and keeps its shape.
 constexpr double kDiffusionLength = 0.02;
 
+/// Above this gap another search, with other directions, is worth its time.
+constexpr double kFarFromLimit = 0.1;
+
 /// Vertices of the proxy. On models with thin limbs its skeleton costs some per cent of what
 /// hollowing gains, with a scatter that falls slowly with its size (benchmarks/results.md).
 Eigen::Index proxySize(Eigen::Index vertexCount) {
@@ -128,7 +131,7 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   if (piece.open) {
     fineAxis = levelAtRim(piece.vertices, piece.faces, piece.isLid, *piece.open, fineAxis);
   }
-  const OffsetField field = offsetField(piece.vertices, skin, fineAxis);
+  OffsetField field = offsetField(piece.vertices, skin, fineAxis);
 
   tell(70, "Optimization");
   const auto representable = [&](const Points& points) {
@@ -173,6 +176,15 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
     CavityTask plain = task;
     plain.limit.reset();
     cavity = searchCavity(plain, tellSearch);
+  }
+  // The limit knows nothing of smoothness.
+  if (options.weights.smoothness == 0.0 && gapToLimit(task, cavity) > kFarFromLimit) {
+    field = offsetField(piece.vertices, skin, fineAxis, kSteepClearance);
+    task.inner = boundsFor(task.wall);
+    CavityResult steep = searchCavity(task, tellSearch);
+    const bool isSteepBetter = isBetter(task, steep, cavity);
+    addEffort(isSteepBetter ? cavity : steep, isSteepBetter ? steep : cavity);
+    if (isSteepBetter) cavity = std::move(steep);
   }
   if (isUseless(cavity)) cavity.status = CavityStatus::NoGain;
   if (cavity.status == CavityStatus::NoRoom) stages.largestWall = largestWall(task, boundsFor);
