@@ -78,7 +78,8 @@ void tighten(const CavityTask& task, const CavityResult& result, const Neighbour
   for (const int v : result.inspection.thin) {
     // Does going deeper lead away from the nearest point of the outer surface?
     const Vec3 y = result.inner.row(v).transpose();
-    const auto nearest = task.faces.row(result.inspection.nearestFace[static_cast<std::size_t>(v)]);
+    const Faces& outerFaces = task.open != nullptr ? task.open->skin : task.faces;
+    const auto nearest = outerFaces.row(result.inspection.nearestFace[static_cast<std::size_t>(v)]);
     const Vec3 a = result.outer.row(nearest[0]).transpose();
     const Vec3 b = result.outer.row(nearest[1]).transpose();
     const Vec3 c = result.outer.row(nearest[2]).transpose();
@@ -109,12 +110,13 @@ void calmOuter(const CavityTask& task, const CavityResult& result, const Neighbo
 
 /// Marks vertices where the cavity is narrower than the wall: such a channel serves no goal, cannot
 /// be printed, and is where the surface folds first. Returns whether there were any.
-bool fillNarrowParts(const CavityTask& task, const Points& inner, const CavitySurface& cavity,
+/// `faces`: of the cavity, without an open surface's strips and lids.
+bool fillNarrowParts(const CavityTask& task, const Points& inner, const Faces& faces,
                      std::vector<char>& solid) {
-  if (cavity.faces.rows() == 0) return false;
-  const TriangleTree tree(inner, cavity.faces,
-                          cavity.faces.rows() == task.faces.rows() ? TriangleTree::Order::Spatial
-                                                                   : TriangleTree::Order::Any);
+  if (faces.rows() == 0) return false;
+  const TriangleTree tree(inner, faces,
+                          faces.rows() == task.faces.rows() ? TriangleTree::Order::Spatial
+                                                            : TriangleTree::Order::Any);
   constexpr Eigen::Index kChunk = 1024;
   std::atomic<bool> any = false;
   forChunks(inner.rows(), kChunk, [&](const Chunk& chunk) {
@@ -131,7 +133,7 @@ bool fillNarrowParts(const CavityTask& task, const Points& inner, const CavitySu
 }
 
 void addMarks(std::vector<char>& solid, const std::vector<char>& more) {
-  for (std::size_t v = 0; v < solid.size(); ++v) solid[v] = solid[v] != 0 || more[v] != 0 ? 1 : 0;
+  for (std::size_t v = 0; v < more.size(); ++v) solid[v] = solid[v] != 0 || more[v] != 0 ? 1 : 0;
 }
 
 /// Keeps u ≥ l at solid vertices, whose offsets no longer matter.
@@ -181,7 +183,7 @@ OptimizeResult optimizeOffsets(const CavityTask& task, const OffsetModel& model,
   /// Below it the whole surface is evaluated quickly enough.
   constexpr Eigen::Index kWorthAProxy = 12000;
   const bool onProxy = task.proxy != nullptr && task.vertices.rows() >= kWorthAProxy &&
-                       !model.outer && task.weights.smoothness == 0.0;
+                       !model.outer && !model.isOpen && task.weights.smoothness == 0.0;
   if (onProxy) return optimizeOnProxy(task, model, solid, start, options);
   return minimize([&](const Vector& x) { return evaluate(model, task.goal, task.weights, x); },
                   start, options);
@@ -207,6 +209,22 @@ bool isBetter(const OptimizeResult& a, const OptimizeResult& b) {
   return a.objective < b.objective;
 }
 
+/// The positions that a cavity's faces refer to.
+Points cavityPositions(const CavityTask& task, const Points& inner) {
+  return task.open != nullptr ? stacked(inner, task.vertices) : inner;
+}
+
+Faces offsetFaces(const CavityTask& task, const Faces& cavity) {
+  return task.open != nullptr ? withoutStrips(cavity, task.vertices.rows()) : cavity;
+}
+
+/// Whether an opening of the surface would be closed by material.
+bool closesOpening(const CavityTask& task, const std::vector<char>& solid) {
+  return task.open != nullptr &&
+         std::any_of(task.open->rim.begin(), task.open->rim.end(),
+                     [&](int v) { return solid[static_cast<std::size_t>(v)] != 0; });
+}
+
 /// `freedom`: how much of the range between least and greatest offset may be used, 0…1; at 0 there
 /// is nothing to optimise, and the cavity is as large as the wall allows.
 CavityResult searchWithin(const CavityTask& task, double freedom,
@@ -214,6 +232,8 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
   const Neighbours neighbours = vertexNeighbours(task.vertices.rows(), task.faces);
   OffsetBounds bounds = task.inner;
   std::vector<char> solid = tooThin(task.field, bounds);
+  if (task.open != nullptr) solid.resize(2 * solid.size(), 0);
+  const Faces& cavityFaces = task.open != nullptr ? task.open->cavity : task.faces;
   bounds.lower =
       lipschitzAbove(task.vertices, neighbours, bounds.lower.cwiseMin(bounds.upper), kBoundSlope);
 
@@ -221,7 +241,8 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
       task.vertices, task.faces, task.field.directions, task.basis,       task.L, task.mass, bounds,
       task.outer,    {},         task.fillDensity,      task.solidMoments};
   if (task.proxy != nullptr) model.interpolation = &task.proxy->interpolation;
-  const VertexCorners corners = vertexCorners(task.vertices.rows(), task.faces);
+  model.isOpen = task.open != nullptr;
+  const VertexCorners corners = vertexCorners(static_cast<Eigen::Index>(solid.size()), cavityFaces);
   const Vector middle = 0.5 * (bounds.lower + bounds.upper);
   const Vector outerStart =
       task.outer ? Vector(task.outer->lower + kOuterStart * (task.outer->upper - task.outer->lower))
@@ -240,9 +261,13 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
     model.inner.upper = model.inner.lower + freedom * (model.inner.upper - model.inner.lower);
 
     const Stopwatch optimization;
-    result.cavity =
-        cavitySurface(offsetSurfaces(model, coefficients).inner, task.faces, corners, solid);
+    result.cavity = cavitySurface(cavityPositions(task, offsetSurfaces(model, coefficients).inner),
+                                  cavityFaces, corners, solid);
     solid = result.cavity.solid;
+    if (closesOpening(task, solid)) {
+      result.stopReason = "no room for a cavity at an opening";
+      return result;
+    }
     model.innerFaces = result.cavity.faces;
     if (freedom > 0.0) {
       OptimizeResult best = optimizeOffsets(task, model, solid, coefficients, solver);
@@ -260,19 +285,23 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
       result.stopReason = "least offsets";
     }
     OffsetSurfaces surfaces = offsetSurfaces(model, coefficients);
-    if (round < kTrims && fillNarrowParts(task, surfaces.inner, result.cavity, solid)) {
+    if (round < kTrims &&
+        fillNarrowParts(task, surfaces.inner, offsetFaces(task, result.cavity.faces), solid)) {
       result.secondsOptimization += optimization.seconds();
       continue;
     }
     result.secondsOptimization += optimization.seconds();
 
     const Stopwatch inspection;
-    result.inner = task.deliverable(surfaces.inner);
+    result.inner = cavityPositions(task, task.deliverable(surfaces.inner));
     result.outer = task.outer ? task.deliverable(surfaces.outer) : task.vertices;
     result.innerOffsets = std::move(surfaces.innerOffsets);
     result.outerOffsets = std::move(surfaces.outerOffsets);
-    result.inspection = inspect(result.inner, result.cavity.faces, result.outer, task.faces,
-                                task.wall, task.outer.has_value(), onlyFolds);
+    result.inspection =
+        task.open != nullptr
+            ? inspectShell(result.inner, result.cavity.faces, task.open->skin, task.wall)
+            : inspect(result.inner, result.cavity.faces, result.outer, task.faces, task.wall,
+                      task.outer.has_value(), onlyFolds);
     onlyFolds = result.inspection.thin.empty() && !result.inspection.crossing.empty();
     result.secondsInspection += inspection.seconds();
     if (progress) progress(1.0 - 1.0 / (2.0 + round));
@@ -291,6 +320,13 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
 
 } // namespace
 
+void addEffort(const CavityResult& other, CavityResult& result) {
+  result.rounds += other.rounds;
+  result.evaluations += other.evaluations;
+  result.secondsOptimization += other.secondsOptimization;
+  result.secondsInspection += other.secondsInspection;
+}
+
 CavityResult searchCavity(const CavityTask& task, const std::function<void(double)>& progress) {
   // In thin sheets whose triangles are large, what the optimisation bends may fold everywhere.
   CavityResult all;
@@ -303,10 +339,7 @@ CavityResult searchCavity(const CavityTask& task, const std::function<void(doubl
   for (const double freedom : {1.0, 0.3, 0.0}) {
     CavityResult result = searchWithin(task, freedom, tell);
     const bool hopeless = result.rounds == 1;
-    result.rounds += all.rounds;
-    result.evaluations += all.evaluations;
-    result.secondsOptimization += all.secondsOptimization;
-    result.secondsInspection += all.secondsInspection;
+    addEffort(all, result);
     all = std::move(result);
     const bool found = all.status == CavityStatus::Found;
     if ((found && all.inspection.components > 0) || hopeless) return all;

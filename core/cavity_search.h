@@ -6,6 +6,7 @@
 #include "core/inspection.h"
 #include "core/limit.h"
 #include "core/offset_problem.h"
+#include "core/open_surface.h"
 #include "core/proxy.h"
 #include "core/types.h"
 
@@ -35,6 +36,9 @@ struct CavityTask {
   std::function<Points(const Points&)> deliverable = {};
   /// Null: the basis lives on the vertices themselves.
   const Proxy* proxy = nullptr;
+  /// Null: the surface is closed. Otherwise the outer surface rests, and `faces` have lids on its
+  /// openings.
+  const OpenSurface* open = nullptr;
 };
 
 enum class CavityStatus {
@@ -45,9 +49,9 @@ enum class CavityStatus {
 
 struct CavityResult {
   CavityStatus status = CavityStatus::NoRoom;
-  /// Delivered positions in the working frame, n×3 each.
+  /// Delivered positions in the working frame, n×3 each; of an open surface's cavity 2n×3.
   Points inner, outer;
-  CavitySurface cavity; ///< no faces: nothing can be hollowed
+  CavitySurface cavity; ///< over `inner`; no faces: nothing can be hollowed
   Vector innerOffsets, outerOffsets;
   Inspection inspection;
   int evaluations = 0;
@@ -56,6 +60,9 @@ struct CavityResult {
   double secondsOptimization = 0.0;
   double secondsInspection = 0.0;
 };
+
+/// Counts the work that went into `other` to that of `result`.
+void addEffort(const CavityResult& other, CavityResult& result);
 
 /// The cavity that serves the goal best among those that pass inspection. Where a cavity crosses
 /// itself or comes too near to the outer surface the bounds close in, and what is left without room

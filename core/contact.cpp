@@ -123,6 +123,17 @@ double extent(const ContactArea& area, const Vec2& u) {
   return farthest;
 }
 
+std::vector<Vec2> outline(const ContactArea& area) {
+  if (!area.radii) return area.polygon;
+  constexpr int kCorners = 64;
+  std::vector<Vec2> corners;
+  corners.reserve(kCorners);
+  for (int i = 0; i < kCorners; ++i) {
+    corners.emplace_back(area.radii->cwiseProduct(direction(2.0 * kPi * i / kCorners)));
+  }
+  return corners;
+}
+
 double tippingAngle(const ContactArea& area, const Vec3& centre) {
   const Vec2 c = centre.head<2>();
   double margin = 0.0;

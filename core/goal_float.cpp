@@ -97,6 +97,17 @@ public:
     report.add("floats_upright_" + suffix, isReached(p));
   }
 
+  /// The water's edge on the body as it floats, and the centre of buoyancy.
+  std::string draw(const Moments& /*before*/, const Moments& after, Sketch& sketch) const override {
+    const FloatingPose p = pose(after);
+    const double level = (outer_ * p.up).minCoeff() + p.draught;
+    for (const auto& [from, to] : levelLines(outer_, faces_, p.up, level)) {
+      sketch.addLine(from, to, kWaterColour);
+    }
+    sketch.addBall(displacement(outer_, faces_, p.up, level).centre, kWaterColour);
+    return "waterline";
+  }
+
 private:
   /// Kept for the next question about the same body: it takes dozens of passes over the mesh.
   FloatingPose pose(const Moments& massMoments) const {

@@ -1,5 +1,6 @@
 #include "core/goals.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -62,6 +63,17 @@ public:
     report.add("hanging_angle_" + suffix, angle(massMoments));
     report.add("hanging_depth_" + suffix, -c.z() * lengthUnit_);
     report.add("hangs_upright_" + suffix, isReached(massMoments));
+  }
+
+  /// The thread from above the suspension point down to the height of the centres of mass.
+  std::string draw(const Moments& before, const Moments& after, Sketch& sketch) const override {
+    const double over = 0.1 * sketch.box().diagonal().norm();
+    const double lowest =
+        std::min(massProperties(before).centerOfMass.z(), massProperties(after).centerOfMass.z());
+    sketch.addBall(suspension_, kGroundColour);
+    sketch.addLine({suspension_.x(), suspension_.y(), lowest}, suspension_ + over * Vec3::UnitZ(),
+                   kGroundColour);
+    return "plumb line";
   }
 
 private:

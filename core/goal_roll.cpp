@@ -51,6 +51,10 @@ public:
     report.add("rolls_upright_" + suffix, isReached(poses));
   }
 
+  std::string draw(const Moments& before, const Moments& after, Sketch& sketch) const override {
+    return stand_->draw(before, after, sketch);
+  }
+
 private:
   RestingPoses rest(const Moments& massMoments) const {
     return restingPoses(hull_, massProperties(massMoments).centerOfMass, kBarrier);

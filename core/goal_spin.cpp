@@ -96,6 +96,14 @@ public:
     report.add("spins_" + suffix, isReached(massMoments));
   }
 
+  std::string draw(const Moments& /*before*/, const Moments& /*after*/,
+                   Sketch& sketch) const override {
+    const double over = 0.1 * sketch.box().diagonal().norm();
+    sketch.addLine({pivot_.x(), pivot_.y(), sketch.box().min().z() - over},
+                   {pivot_.x(), pivot_.y(), sketch.box().max().z() + over}, kGroundColour);
+    return "axis";
+  }
+
 private:
   struct Verdict {
     double offset;         ///< of the centre of mass from the axis, working length

@@ -1,5 +1,6 @@
 #include "core/goals.h"
 
+#include <cmath>
 #include <utility>
 
 namespace massprops {
@@ -8,6 +9,7 @@ namespace {
 /// The centre of mass keeps off the area's border by this share, for print and ground are not
 /// exact.
 constexpr double kMargin = 0.1;
+constexpr double kPi = 3.14159265358979323846;
 /// Constraints of a contact polygon; one with more corners is replaced by an inscribed one.
 constexpr std::size_t kMostEdges = 32;
 
@@ -20,10 +22,27 @@ std::vector<Vec2> inscribed(const std::vector<Vec2>& polygon) {
   return result;
 }
 
+/// Outward normals of the polygon's edges, and directions all round for corners and ellipses.
+std::vector<Vec2> tippingDirections(const std::vector<Vec2>& corners) {
+  constexpr int kAround = 72;
+  std::vector<Vec2> directions;
+  directions.reserve(corners.size() + kAround);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec2 edge = corners[(i + 1) % corners.size()] - corners[i];
+    directions.emplace_back(Vec2(edge.y(), -edge.x()).normalized());
+  }
+  for (int i = 0; i < kAround; ++i) {
+    const double angle = 2.0 * kPi * i / kAround;
+    directions.emplace_back(std::cos(angle), std::sin(angle));
+  }
+  return directions;
+}
+
 class StandGoal final : public Goal {
 public:
   StandGoal(ContactArea area, const Weights& weights, double lengthUnit)
-      : area_(std::move(area)), corners_(inscribed(area_.polygon)), weight_(weights.centerOfMass),
+      : area_(std::move(area)), corners_(inscribed(area_.polygon)),
+        directions_(tippingDirections(corners_)), weight_(weights.centerOfMass),
         lengthUnit_(lengthUnit) {}
 
   GoalValue objective(const Moments& massMoments) const override {
@@ -89,6 +108,40 @@ public:
     report.add("stands_" + suffix, isReached(massMoments));
   }
 
+  /// The tipping angle is at least atan t where extent(u) − u·c ≥ t c_z for every horizontal u.
+  VerdictBounds verdictBounds(const Moments& massMoments, double level) const override {
+    const MassProperties body = massProperties(massMoments);
+    const Vec3& c = body.centerOfMass;
+    const auto gradient = massPropertyGradients(body).centerOfMass;
+    const auto rows = static_cast<Eigen::Index>(directions_.size());
+    VerdictBounds bounds{{Vector(rows), MomentGradients(rows, 10)}, Vector::Constant(rows, c.z())};
+    for (Eigen::Index r = 0; r < rows; ++r) {
+      const Vec2& u = directions_[static_cast<std::size_t>(r)];
+      bounds.constraints.values[r] = u.dot(c.head<2>()) + level * c.z() - extent(area_, u);
+      bounds.constraints.gradients.row(r) =
+          u.transpose() * gradient.topRows<2>() + level * gradient.row(2);
+    }
+    return bounds;
+  }
+
+  std::string bestInWords(const Moments& massMoments) const override {
+    return "the best possible tipping angle is " + toString(angle(massMoments)) + "\u00b0";
+  }
+
+  /// The contact area, and the centres of mass plumb above or beside it.
+  std::string draw(const Moments& before, const Moments& after, Sketch& sketch) const override {
+    std::vector<Vec3> corners;
+    for (const Vec2& p : outline(area_)) corners.emplace_back(p.x(), p.y(), 0.0);
+    sketch.addLoop(corners, kGroundColour);
+    const auto addPlumbLine = [&](const Moments& body, Colour colour) {
+      const Vec3 c = massProperties(body).centerOfMass;
+      sketch.addLine(c, {c.x(), c.y(), 0.0}, colour);
+    };
+    addPlumbLine(before, kBeforeColour);
+    addPlumbLine(after, kAfterColour);
+    return "contact area";
+  }
+
 private:
   double angle(const Moments& massMoments) const {
     return tippingAngle(area_, massProperties(massMoments).centerOfMass);
@@ -96,6 +149,7 @@ private:
 
   ContactArea area_;
   std::vector<Vec2> corners_;
+  std::vector<Vec2> directions_;
   double weight_;
   double lengthUnit_;
 };

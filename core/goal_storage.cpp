@@ -52,6 +52,10 @@ public:
     stand_->describe(filled(massMoments), "filled_" + suffix, report);
   }
 
+  std::string draw(const Moments& before, const Moments& after, Sketch& sketch) const override {
+    return stand_->draw(before, after, sketch);
+  }
+
 private:
   Moments filled(const Moments& empty) const {
     return (1.0 - filling_) * empty + filling_ * outer_;

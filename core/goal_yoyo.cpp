@@ -55,6 +55,12 @@ public:
     report.add("sleeps_" + suffix, isReached(massMoments));
   }
 
+  /// The axle, and its middle.
+  std::string draw(const Moments& before, const Moments& after, Sketch& sketch) const override {
+    sketch.addBall(pivot_, kGroundColour);
+    return spin_->draw(before, after, sketch);
+  }
+
 private:
   double offMiddle(const Moments& massMoments) const {
     return massProperties(massMoments).centerOfMass.z() - pivot_.z();

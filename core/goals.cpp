@@ -16,6 +16,19 @@ Vec3 middleOfTop(const Points& vertices) {
 
 } // namespace
 
+VerdictBounds Goal::verdictBounds(const Moments& /*massMoments*/, double /*level*/) const {
+  return {};
+}
+
+std::string Goal::bestInWords(const Moments& massMoments) const {
+  return "at best " + worstViolation(massMoments);
+}
+
+std::string Goal::draw(const Moments& /*before*/, const Moments& /*after*/,
+                       Sketch& /*sketch*/) const {
+  return "";
+}
+
 std::unique_ptr<Goal> makeGoal(const Options& options, const Workpiece& piece,
                                const Points& outer) {
   const Weights& weights = options.weights;

@@ -5,6 +5,7 @@
 #include "core/mass_properties.h"
 #include "core/options.h"
 #include "core/report.h"
+#include "core/sketch.h"
 #include "core/workpiece.h"
 
 #include <memory>
@@ -24,6 +25,13 @@ struct GoalValue {
 struct GoalConstraints {
   Vector values;
   MomentGradients gradients;
+};
+
+/// What a verdict that is one number t, the greater the better, asks of a body: it is at least t
+/// exactly where all values are ≤ 0. `slopes`: the values' derivatives by t, r entries.
+struct VerdictBounds {
+  GoalConstraints constraints;
+  Vector slopes;
 };
 
 /// A goal sees a body through its ten mass moments M in the working frame, the material's density
@@ -49,6 +57,14 @@ public:
   /// Adds the goal's own keys with `suffix` ("before", "after") to the report.
   virtual void describe(const Moments& massMoments, const std::string& suffix,
                         Report& report) const = 0;
+  /// Bounds of the verdict at `level`; none where it is more than one number. Each times the mass
+  /// is linear in the moments.
+  virtual VerdictBounds verdictBounds(const Moments& massMoments, double level) const;
+  /// What the best of all bodies reaches, in words, when no body holds all constraints.
+  virtual std::string bestInWords(const Moments& massMoments) const;
+  /// Draws, in the working frame, what the verdict goes by on the solid body `before` and on the
+  /// answer `after`, and names it in plain words; nothing but "" where the numbers say it all.
+  virtual std::string draw(const Moments& before, const Moments& after, Sketch& sketch) const;
 };
 
 // One factory a goal. `lengthUnit`: model units per working unit, for the report. Formulas in

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace massprops {
 namespace {
 
 /// Constraints hold when they are violated by no more than this share of the model's size.
 constexpr double kFeasibility = 1e-6;
-/// The limit is known less exactly.
-constexpr double kReachable = 1e-4;
 
 /// The body that a search ends with, measured on its triangles.
 struct Body {
@@ -41,6 +40,14 @@ Body hollowBody(const CavityTask& task, const CavityResult& cavity) {
   return body;
 }
 
+bool servesBetter(const CavityTask& task, const Body& a, const Body& b) {
+  const bool constrained = task.weights.constraints > 0.0;
+  if (constrained && std::max(a.violation, b.violation) > kFeasibility) {
+    return a.violation < b.violation;
+  }
+  return a.objective < b.objective;
+}
+
 /// A body in the model's own coordinates and in grams.
 MassProperties inModel(const Moments& massMoments, const Frame& frame, double density) {
   const MassProperties working = massProperties(massMoments);
@@ -69,9 +76,11 @@ double gapToLimit(const Limit& limit, const Body& before, const Body& after) {
 /// What a cavity of any shape could do about a goal that is missed.
 std::string outlook(const CavityTask& task) {
   if (!task.limit) return "";
-  if (task.limit->violation <= kReachable) return " A cavity of another shape could reach it.";
-  return " No cavity of any shape that keeps this wall can reach it: at best " +
-         task.goal.worstViolation(task.limit->massMoments) + ".";
+  if (task.limit->violation <= Limit::kReachable) {
+    return " A cavity of another shape could reach it.";
+  }
+  return " No cavity of any shape that keeps this wall can reach it: " +
+         task.goal.bestInWords(task.limit->bestVerdict.value_or(task.limit->massMoments)) + ".";
 }
 
 std::string message(const CavityTask& task, const Goal& goalAfter, const CavityResult& cavity,
@@ -79,15 +88,20 @@ std::string message(const CavityTask& task, const Goal& goalAfter, const CavityR
   std::string sentence =
       goalAfter.isReached(after.mass) ? "The goal is reached" : "The goal is missed";
   if (cavity.status == CavityStatus::NoRoom) {
-    return sentence + " by the solid model; nothing can be hollowed at this wall: " +
+    return sentence +
+           (task.open != nullptr
+                ? " by the solid model; there is no room for an open shell with this wall: "
+                : " by the solid model; nothing can be hollowed at this wall: ") +
            (largestWall > 0.0
                 ? "lower inner_lower_bound to " + toString(largestWall) + " or less."
                 : "lower inner_lower_bound, and refine the model with Remeshing > Isotropic "
                   "Explicit Remeshing, for no thinner wall was found to leave room either.");
   }
   if (cavity.status == CavityStatus::NoGain) {
-    return sentence + " by the solid model, and no cavity with this wall was found to serve it "
-                      "better.";
+    return sentence +
+           " by the solid model, and no cavity with this wall was found to serve it "
+           "better." +
+           (before.violation > kFeasibility ? outlook(task) : "");
   }
   if (task.goal.isReached(before.mass)) sentence += " (by the solid model too)";
   if (cavity.inspection.components == 0) {
@@ -99,16 +113,34 @@ std::string message(const CavityTask& task, const Goal& goalAfter, const CavityR
                    "." + outlook(task);
 }
 
+/// Vertices of the surface, lids apart, that have no cavity behind them.
+int solidVertices(const Workpiece& piece, const CavityResult& cavity) {
+  const Faces& skin = piece.open ? piece.open->skin : piece.faces;
+  std::vector<char> mark(static_cast<std::size_t>(piece.vertices.rows()), 0);
+  for (Eigen::Index f = 0; f < skin.rows(); ++f) {
+    for (const int v : skin.row(f)) {
+      const auto i = static_cast<std::size_t>(v);
+      mark[i] = cavity.status == CavityStatus::Found ? cavity.cavity.solid[i] : 1;
+    }
+  }
+  return static_cast<int>(std::count(mark.begin(), mark.end(), 1));
+}
+
 } // namespace
 
 bool isBetterThanSolid(const CavityTask& task, const CavityResult& cavity) {
-  const Body solid = inputBody(task);
-  const Body hollow = hollowBody(task, cavity);
-  const bool constrained = task.weights.constraints > 0.0;
-  if (constrained && std::max(solid.violation, hollow.violation) > kFeasibility) {
-    return hollow.violation < solid.violation;
-  }
-  return hollow.objective < solid.objective;
+  return servesBetter(task, hollowBody(task, cavity), inputBody(task));
+}
+
+bool isBetter(const CavityTask& task, const CavityResult& cavity, const CavityResult& other) {
+  if (cavity.status != CavityStatus::Found) return false;
+  return other.status != CavityStatus::Found ||
+         servesBetter(task, hollowBody(task, cavity), hollowBody(task, other));
+}
+
+double gapToLimit(const CavityTask& task, const CavityResult& cavity) {
+  if (!task.limit || cavity.status != CavityStatus::Found) return 0.0;
+  return gapToLimit(*task.limit, inputBody(task), hollowBody(task, cavity));
 }
 
 Report hollowingReport(const Workpiece& piece, const CavityTask& task, const Goal& goalAfter,
@@ -143,6 +175,7 @@ Report hollowingReport(const Workpiece& piece, const CavityTask& task, const Goa
     report.add("objective_limit", task.limit->objective);
     report.add("gap_to_limit", gapToLimit(*task.limit, before, after));
     task.goal.describe(task.limit->massMoments, "limit", report);
+    if (task.limit->bestVerdict) task.goal.describe(*task.limit->bestVerdict, "best", report);
   }
   report.add("min_wall", hasCavity ? cavity.inspection.leastWall * piece.frame.length : 0.0);
   report.add("cavity_components", hollow ? cavity.inspection.components : 0);
@@ -151,9 +184,8 @@ Report hollowingReport(const Workpiece& piece, const CavityTask& task, const Goa
   }
   report.add("repairs", stages.repairs);
   report.add("skeleton_failures", stages.skeletonFailures);
-  report.add("solid_vertices", hollow ? static_cast<int>(std::count(cavity.cavity.solid.begin(),
-                                                                    cavity.cavity.solid.end(), 1))
-                                      : static_cast<int>(piece.vertices.rows()));
+  if (piece.open) report.add("openings", piece.open->openings);
+  report.add("solid_vertices", solidVertices(piece, cavity));
   report.add("stop_reason", cavity.stopReason);
   report.add("rounds", cavity.rounds);
   report.add("evaluations", cavity.evaluations);

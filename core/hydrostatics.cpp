@@ -98,6 +98,25 @@ Displacement displacement(const Points& vertices, const Faces& faces, const Vec3
   return result;
 }
 
+std::vector<std::pair<Vec3, Vec3>> levelLines(const Points& vertices, const Faces& faces,
+                                              const Vec3& up, double level) {
+  const Vector heights = (vertices * up).array() - level;
+  std::vector<std::pair<Vec3, Vec3>> lines;
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    std::array<Vec3, 2> ends;
+    std::size_t found = 0;
+    for (int k = 0; k < 3; ++k) {
+      const int p = faces(f, k);
+      const int q = faces(f, (k + 1) % 3);
+      if ((heights[p] <= 0.0) == (heights[q] <= 0.0)) continue;
+      const double share = heights[p] / (heights[p] - heights[q]);
+      ends[found++] = ((1.0 - share) * vertices.row(p) + share * vertices.row(q)).transpose();
+    }
+    if (found == 2) lines.emplace_back(ends[0], ends[1]);
+  }
+  return lines;
+}
+
 double levelFor(const Points& vertices, const Faces& faces, const Vec3& up, double volume) {
   const Vector heights = vertices * up;
   double low = heights.minCoeff();

@@ -3,6 +3,9 @@
 
 #include "core/types.h"
 
+#include <utility>
+#include <vector>
+
 namespace massprops {
 
 /// The part of a body below the plane `up`·x = `level`, and the plane's cut through the body.
@@ -17,6 +20,10 @@ struct Displacement {
 /// Exact for a closed polyhedron: the triangles are clipped by the plane. `up`: unit.
 /// docs/math.md "Displaced volume"
 Displacement displacement(const Points& vertices, const Faces& faces, const Vec3& up, double level);
+
+/// Where the plane cuts the surface: a segment a face.
+std::vector<std::pair<Vec3, Vec3>> levelLines(const Points& vertices, const Faces& faces,
+                                              const Vec3& up, double level);
 
 /// The level at which the body displaces `volume`, between 0 and the body's own.
 double levelFor(const Points& vertices, const Faces& faces, const Vec3& up, double volume);

@@ -2,6 +2,7 @@
 
 #include "core/components.h"
 #include "core/moments.h"
+#include "core/open_surface.h"
 #include "core/spatial.h"
 #include "core/validity.h"
 
@@ -74,6 +75,46 @@ Inspection inspect(const Points& inner, const Faces& innerFaces, const Points& o
       inspection.thin.push_back(static_cast<int>(v));
     }
   }
+  return inspection;
+}
+
+Inspection inspectShell(const Points& positions, const Faces& cavity, const Faces& skin,
+                        double wall) {
+  const Eigen::Index n = positions.rows() / 2;
+  Inspection inspection;
+  const Faces shell = shellOf(skin, cavity, n);
+  const std::vector<int> folded = selfIntersectingFaces(positions, shell);
+  const std::vector<int> flat = facesWithoutArea(positions, shell);
+  std::vector<int> bad = verticesOf(shell, {&folded, &flat});
+  if (bad.empty()) {
+    const Components parts = connectedComponents(positions.rows(), shell);
+    const std::vector<int> depths = nestingDepths(positions, parts);
+    for (std::size_t c = 0; c < parts.size(); ++c) {
+      // Closed cavities lie in the material and face into it; the rest bounds it from outside.
+      const double volume =
+          moments(positions.rowwise() - positions.row(parts[c](0, 0)), parts[c])[0];
+      if (depths[c] == (volume > 0.0 ? 0 : 1)) continue;
+      bad.insert(bad.end(), parts[c].data(), parts[c].data() + parts[c].size());
+    }
+  }
+  for (const int v : bad) inspection.crossing.push_back(v < n ? v : v - static_cast<int>(n));
+  std::sort(inspection.crossing.begin(), inspection.crossing.end());
+  inspection.crossing.erase(std::unique(inspection.crossing.begin(), inspection.crossing.end()),
+                            inspection.crossing.end());
+
+  const Points outer = positions.bottomRows(n);
+  Clearance clearance =
+      clearanceOf(positions, withoutStrips(cavity, n), TriangleTree(outer, skin), wall);
+  inspection.wall = std::move(clearance.distance);
+  inspection.wall.tail(n).setZero();
+  inspection.leastWall = clearance.least;
+  inspection.nearestFace = std::move(clearance.nearestFace);
+  for (Eigen::Index v = 0; v < n; ++v) {
+    if (inspection.wall[v] < (1.0 - kWallTolerance) * wall) {
+      inspection.thin.push_back(static_cast<int>(v));
+    }
+  }
+  inspection.components = static_cast<int>(connectedComponents(positions.rows(), cavity).size());
   return inspection;
 }
 

@@ -34,4 +34,12 @@ struct Inspection {
 Inspection inspect(const Points& inner, const Faces& innerFaces, const Points& outer,
                    const Faces& outerFaces, double wall, bool outerMoved, bool foldsFirst = false);
 
+/// The same for the shell of an open surface (open_surface.h): skin, offset surface and strips
+/// together are free of crossings and bound the material, and the offset surface, strips apart,
+/// keeps the wall from the skin. `positions`: 2n×3; `wall`, `nearestFace` have 2n entries, the
+/// latter faces of the skin, the wall being 0 on the skin itself; `crossing` and `thin` are
+/// vertices below n.
+Inspection inspectShell(const Points& positions, const Faces& cavity, const Faces& skin,
+                        double wall);
+
 } // namespace massprops

@@ -141,6 +141,45 @@ Share sharpShare(double t) {
   return {0.5 + t * (0.75 - 0.25 * t * t), 0.75 * (1.0 - t * t)};
 }
 
+double levelOf(const VerdictBounds& atZero) {
+  return -atZero.constraints.values.cwiseQuotient(atZero.slopes).maxCoeff();
+}
+
+/// For every bound alone the body that reaches the greatest level: at that level the bound's
+/// derivative is negative where the body is hollow (Dinkelbach's iteration, in which the level only
+/// grows). No body reaches more than the least of these levels, and the body of the bound that is
+/// met last reaches it where it keeps the other bounds.
+std::optional<Moments> bestVerdict(const Goal& goal, const Moments& solid, double fillDensity,
+                                   const AdmissibleCells& cells) {
+  constexpr int kMostSteps = 30;
+  const Eigen::Index rows = goal.verdictBounds(solid, 0.0).slopes.size();
+  std::optional<Moments> best;
+  double bestLevel = -std::numeric_limits<double>::infinity();
+  for (Eigen::Index r = 0; r < rows; ++r) {
+    Moments body = solid;
+    double level = -std::numeric_limits<double>::infinity();
+    for (int step = 0; step < kMostSteps; ++step) {
+      const VerdictBounds atZero = goal.verdictBounds(body, 0.0);
+      const double reached = -atZero.constraints.values[r] / atZero.slopes[r];
+      if (!(reached > level)) break;
+      level = reached;
+      if (levelOf(atZero) > bestLevel) {
+        bestLevel = levelOf(atZero);
+        best = body;
+      }
+      const Vector change =
+          (fillDensity - 1.0) *
+          (cells * goal.verdictBounds(body, level).constraints.gradients.row(r).transpose());
+      Moments cavity = Moments::Zero();
+      for (Eigen::Index c = 0; c < cells.rows(); ++c) {
+        if (change[c] < 0.0) cavity += cells.row(c).transpose();
+      }
+      body = solid + (fillDensity - 1.0) * cavity;
+    }
+  }
+  return best;
+}
+
 } // namespace
 
 AdmissibleCells admissibleCells(const Points& vertices, const Faces& faces,
@@ -170,7 +209,6 @@ Limit limitOf(const Goal& goal, const Weights& weights, const Moments& solid, do
               const AdmissibleCells& cells) {
   const Eigen::Index terms = goal.usesInertia() ? 10 : 4;
   Limit limit;
-  limit.massMoments = solid;
   // Functions of unit mean square over the region that are orthogonal there: of one scale each.
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const Rows means = cells.col(0).cwiseInverse().asDiagonal() * cells.leftCols(terms);
@@ -183,22 +221,30 @@ Limit limitOf(const Goal& goal, const Weights& weights, const Moments& solid, do
                            std::sqrt(volume);
   const Rows psi = means * whitening;
 
-  const auto evaluate = [&](const Vector& q, Share (*shareOf)(double)) {
-    Moments cavity = Moments::Zero();
-    MomentJacobian jacobian = MomentJacobian::Zero(10, rank);
+  struct Hollow {
+    Moments cavity;
+    MomentJacobian jacobian; ///< by q
+  };
+  const auto hollow = [&](const Vector& q, Share (*shareOf)(double)) {
+    Hollow h{Moments::Zero(), MomentJacobian::Zero(10, rank)};
     const Vector t = psi * q;
     for (Eigen::Index c = 0; c < cells.rows(); ++c) {
       const Share share = shareOf(t[c]);
-      if (share.value != 0.0) cavity += share.value * cells.row(c).transpose();
+      if (share.value != 0.0) h.cavity += share.value * cells.row(c).transpose();
       if (share.slope != 0.0) {
-        jacobian.noalias() += share.slope * cells.row(c).transpose() * psi.row(c);
+        h.jacobian.noalias() += share.slope * cells.row(c).transpose() * psi.row(c);
       }
     }
-    limit.massMoments = solid + (fillDensity - 1.0) * cavity;
-    return evaluateBody(goal, weights, limit.massMoments, (fillDensity - 1.0) * jacobian,
-                        1.0 - cavity[0] / solid[0], -jacobian.row(0).transpose() / solid[0]);
+    return h;
   };
-
+  const auto bodyOf = [&](const Hollow& h) {
+    return Moments(solid + (fillDensity - 1.0) * h.cavity);
+  };
+  const auto evaluate = [&](const Vector& q, Share (*shareOf)(double)) {
+    const Hollow h = hollow(q, shareOf);
+    return evaluateBody(goal, weights, bodyOf(h), (fillDensity - 1.0) * h.jacobian,
+                        1.0 - h.cavity[0] / solid[0], -h.jacobian.row(0).transpose() / solid[0]);
+  };
   // Half of every cell, almost nothing, almost everything: for several goals there is more than one
   // minimum.
   const Vector everything = psi.transpose() * cells.col(0) / volume;
@@ -218,9 +264,13 @@ Limit limitOf(const Goal& goal, const Weights& weights, const Moments& solid, do
       best = std::move(result);
     }
   }
+  limit.massMoments = bodyOf(hollow(best.x, sharpShare));
   limit.objective = evaluate(best.x, sharpShare).objective;
   limit.violation = largestViolation(goal, limit.massMoments);
   limit.quadric.head(terms) = whitening * best.x;
+  if (limit.violation > Limit::kReachable) {
+    limit.bestVerdict = bestVerdict(goal, solid, fillDensity, cells);
+  }
   return limit;
 }
 

@@ -3,6 +3,8 @@
 
 #include "core/goals.h"
 
+#include <optional>
+
 namespace massprops {
 
 /// What may be hollow: the points of the body that are at least a wall away from its surface, in
@@ -21,10 +23,15 @@ AdmissibleCells admissibleCells(const Points& vertices, const Faces& faces,
 /// depends on mass moments alone: a plane's side for those without inertia. [HLW24, Sec. 4; docs/
 /// math.md "The limit"]
 struct Limit {
+  /// Known this exactly: a lower violation counts as none.
+  static constexpr double kReachable = 1e-4;
+
   Moments massMoments = Moments::Zero();
   double objective = 0.0; ///< terms 1, 2, 3 and 5
   double violation =
       0.0; ///< largest of the goal's constraints; > 0: no cavity was found to hold all
+  /// Where the constraints cannot be kept and the verdict is one number: the body with the best.
+  std::optional<Moments> bestVerdict;
   /// (1, x, y, z, xx, yy, zz, xy, yz, zx)·quadric > 0 where the body is hollow.
   Moments quadric = Moments::Zero();
 };

@@ -15,8 +15,6 @@
 namespace massprops {
 namespace {
 
-/// A direction counts as inside of its vertex's cone when it leaves every face by this much.
-constexpr double kWantedClearance = 0.3;
 /// Two opposite sides of a limb that both move less than half-way cannot meet.
 constexpr double kShareOfChord = 0.5;
 constexpr double kReachSlope = 1.0;
@@ -95,7 +93,8 @@ Points smoothedOverSurface(const Points& values, const SparseMatrix& L, const Ve
   return solver.solve(mass.asDiagonal() * values);
 }
 
-OffsetField offsetField(const Points& vertices, const Faces& faces, const Points& axis) {
+OffsetField offsetField(const Points& vertices, const Faces& faces, const Points& axis,
+                        double wantedClearance) {
   const Points normals = unitFaceNormals(vertices, faces);
   const VertexCorners corners = vertexCorners(vertices.rows(), faces);
   OffsetField field;
@@ -111,11 +110,11 @@ OffsetField offsetField(const Points& vertices, const Faces& faces, const Points
       const Vec3 outward = (vertices.row(v) - axis.row(v)).transpose();
       Vec3 direction = outward.stableNormalized();
       double clearance = clearanceOf(direction, fan, normals);
-      if (!(clearance >= kWantedClearance)) {
+      if (!(clearance >= wantedClearance)) {
         const Vec3 target = mostNormalDirection(fan, normals);
         const double attainable = clearanceOf(target, fan, normals);
         direction =
-            turnedIntoCone(direction, target, std::min(kWantedClearance, attainable), fan, normals);
+            turnedIntoCone(direction, target, std::min(wantedClearance, attainable), fan, normals);
         clearance = clearanceOf(direction, fan, normals);
       }
       field.directions.row(v) = direction.transpose();

@@ -25,8 +25,15 @@ struct OffsetField {
 OffsetField offsetField(const Points& vertices, const Faces& faces, const Points& skeleton,
                         const SparseMatrix& L, const Vector& mass, double diffusionLength);
 
+/// A direction counts as inside of its vertex's cone when n_f·d is at least this much for all its
+/// faces. Slanted ones keep near to the skeleton; steep ones hollow bumps and the ends of limbs
+/// out, where slanted offsets leave walls that are too thick.
+constexpr double kSlantedClearance = 0.3;
+constexpr double kSteepClearance = 0.6;
+
 /// Steps 2 and 3, with skeleton points that are smooth already.
-OffsetField offsetField(const Points& vertices, const Faces& faces, const Points& axis);
+OffsetField offsetField(const Points& vertices, const Faces& faces, const Points& axis,
+                        double wantedClearance = kSlantedClearance);
 
 /// Step 1. `values`: n×3.
 Points smoothedOverSurface(const Points& values, const SparseMatrix& L, const Vector& mass,

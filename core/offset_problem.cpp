@@ -1,6 +1,7 @@
 #include "core/offset_problem.h"
 
 #include "core/moments.h"
+#include "core/open_surface.h"
 
 #include <utility>
 
@@ -34,6 +35,15 @@ MomentJacobian jacobian(const OffsetModel& model, const MomentRates& rates, cons
 
 CavityMoments momentsOf(const OffsetModel& model, const OffsetSurfaces& surfaces,
                         bool usesInertia) {
+  if (model.isOpen) {
+    // The strips and lids have corners on the outer surface, which rest.
+    const Eigen::Index n = model.vertices.rows();
+    const Points both = stacked(surfaces.inner, model.vertices);
+    const MomentRates rates =
+        momentRates(both, model.innerFaces, stacked(model.directions, Points::Zero(n, 3)));
+    return {moments(both, model.innerFaces),
+            jacobian(model, rates.topRows(n), surfaces.innerSlopes, -1.0, usesInertia)};
+  }
   return {moments(surfaces.inner, model.innerFaces),
           jacobian(model, momentRates(surfaces.inner, model.innerFaces, model.directions),
                    surfaces.innerSlopes, -1.0, usesInertia)};

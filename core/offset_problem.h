@@ -20,11 +20,14 @@ struct OffsetModel {
   const Vector& mass;         ///< n lumped masses of total 1
   OffsetBounds inner;
   std::optional<OffsetBounds> outer; ///< empty: the outer surface stays
-  Faces innerFaces;                  ///< of the cavity, outward, over the same vertices
-  double fillDensity = 0.0;          ///< as a multiple of the material's density
-  Moments solidMoments;              ///< of the input surface
+  /// Of the cavity, outward, over the same vertices; of an open surface over 2n positions
+  /// (open_surface.h).
+  Faces innerFaces;
+  double fillDensity = 0.0; ///< as a multiple of the material's density
+  Moments solidMoments;     ///< of the input surface
   /// From the proxy that the basis lives on to the vertices; null where it lives on these.
   const Interpolation* interpolation = nullptr;
+  bool isOpen = false; ///< whether `innerFaces` are those of an open surface
 };
 
 /// The two surfaces that a set of coefficients stands for.

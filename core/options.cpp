@@ -99,4 +99,10 @@ void requireSensible(const Options& options, Eigen::Index vertexCount, double di
           "target_mass must be 0 (as light as possible) or a mass in grams.");
 }
 
+void requireSensibleForShell(const Options& options) {
+  if (options.outerUpperBound == 0.0) return;
+  throw InvalidInput("An open surface stays where it is: set outer_lower_bound and "
+                     "outer_upper_bound to 0, or close it with Remeshing > Close Holes.");
+}
+
 } // namespace massprops

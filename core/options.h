@@ -70,6 +70,11 @@ struct Options {
   /// Skeleton, basis and optimisation on the whole surface instead of on a coarse copy: slow; what
   /// the copy is measured against.
   bool fullResolution = false;
+  /// Whether a surface with boundary loops is taken as one side of a shell; otherwise it is
+  /// refused.
+  bool openSurface = false;
+  /// Whether the result brings a picture of the answer.
+  bool showAnswer = false;
   /// Rounds points to what the caller can store (a float mesh, say). What is delivered, checked
   /// and reported is the rounded surface. Empty: double precision.
   std::function<Points(const Points&)> representable;
@@ -77,5 +82,7 @@ struct Options {
 
 /// \throw InvalidInput when an option is absurd in itself or for a model of that size
 void requireSensible(const Options& options, Eigen::Index vertexCount, double diagonal);
+/// \throw InvalidInput when an option is absurd for a surface that is open
+void requireSensibleForShell(const Options& options);
 
 } // namespace massprops

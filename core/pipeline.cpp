@@ -23,6 +23,9 @@ namespace {
 /// Of the diagonal: smooths the noise of the skeleton's correspondence and keeps its shape.
 constexpr double kDiffusionLength = 0.02;
 
+/// Above this gap another search, with other directions, is worth its time.
+constexpr double kFarFromLimit = 0.1;
+
 /// Vertices of the proxy. On models with thin limbs its skeleton costs some per cent of what
 /// hollowing gains, with a scatter that falls slowly with its size (benchmarks/results.md). The
 /// whole of a small model takes less than a second.
@@ -92,9 +95,11 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   constexpr int kStart = 2;
   constexpr int kEnd = 95;
   tell(0, "Checking the model");
-  const Solid solid = makeSolid(model);
+  const Solid solid = makeSolid(model, options.openSurface);
   requireSensible(options, solid.vertices().rows(), solid.diagonal());
   const Workpiece piece = makeWorkpiece(solid, options);
+  if (piece.open) requireSensibleForShell(options);
+  const Faces& skin = piece.open ? piece.open->skin : piece.faces;
 
   // Skeleton and basis are smooth: a coarse copy of the surface carries them. The basis does not
   // need the skeleton: both cores work.
@@ -123,7 +128,7 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
         basis = harmonicBasis(coarse.vertices, coarse.faces, coarseL, coarseArea / coarseArea.sum(),
                               options.basisSize);
         stages.secondsBasis = time.seconds();
-        if (options.outerUpperBound > 0.0) return;
+        if (options.outerUpperBound > 0.0 || piece.open) return;
         const Stopwatch limitTime;
         const AdmissibleCells cells =
             admissibleCells(piece.vertices, piece.faces, coarse, piece.wall);
@@ -139,7 +144,11 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
                                 shareOfSkeleton(piece.vertices.rows(), coarse.vertices.rows()));
   tell(afterSkeleton, "Offset directions");
   const Points axis = smoothedOverSurface(skeleton.points, coarseL, coarseArea, kDiffusionLength);
-  const OffsetField field = offsetField(piece.vertices, piece.faces, proxy.interpolation * axis);
+  Points fineAxis = proxy.interpolation * axis;
+  if (piece.open) {
+    fineAxis = levelAtRim(piece.vertices, piece.faces, piece.isLid, *piece.open, fineAxis);
+  }
+  OffsetField field = offsetField(piece.vertices, skin, fineAxis);
 
   const int beforeSearch = afterSkeleton + (kEnd - afterSkeleton) / 8;
   tell(beforeSearch, "Optimization");
@@ -151,13 +160,14 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
                              : SparseMatrix();
   CavityTask task{piece.vertices, piece.faces, field, basis, L, mass, *goal, options.weights};
   if (!proxy.interpolation.isIdentity()) task.proxy = &proxy;
+  if (piece.open) task.open = &*piece.open;
   task.solidMoments = solidMoments;
   task.fillDensity = fillingSeenBy(options);
   task.limit = limit;
   task.wall = piece.wall;
   task.inputMoments = solidMoments + moments(piece.cavities.vertices, piece.cavities.faces);
   const auto boundsFor = [&](double wall) {
-    return keepingWall(piece.vertices, piece.faces, field,
+    return keepingWall(piece.vertices, skin, field,
                        innerBounds(field, wall, options.innerUpperBound), wall);
   };
   task.inner = boundsFor(task.wall);
@@ -175,7 +185,8 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
     tell(percent, "Optimization");
   };
   const auto isUseless = [&](const CavityResult& found) {
-    return found.status == CavityStatus::Found && !isBetterThanSolid(task, found);
+    // A shell is asked for whatever a solid body could do.
+    return !piece.open && found.status == CavityStatus::Found && !isBetterThanSolid(task, found);
   };
   CavityResult cavity = searchCavity(task, tellSearch);
   if (task.limit && isUseless(cavity)) {
@@ -184,14 +195,30 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
     plain.limit.reset();
     cavity = searchCavity(plain, tellSearch);
   }
+  // The limit knows nothing of smoothness.
+  if (options.weights.smoothness == 0.0 && gapToLimit(task, cavity) > kFarFromLimit) {
+    field = offsetField(piece.vertices, skin, fineAxis, kSteepClearance);
+    task.inner = boundsFor(task.wall);
+    CavityResult steep = searchCavity(task, tellSearch);
+    const bool isSteepBetter = isBetter(task, steep, cavity);
+    addEffort(isSteepBetter ? cavity : steep, isSteepBetter ? steep : cavity);
+    if (isSteepBetter) cavity = std::move(steep);
+  }
   if (isUseless(cavity)) cavity.status = CavityStatus::NoGain;
   if (cavity.status == CavityStatus::NoRoom) stages.largestWall = largestWall(task, boundsFor);
 
   tell(kEnd, "Report");
   Result result;
   if (cavity.status == CavityStatus::Found) {
-    Submesh inner = submesh(representable(toModel(piece.frame, inSolidOrder(piece, cavity.inner))),
-                            inSolidOrder(piece, cavity.cavity.faces));
+    const Eigen::Index n = piece.vertices.rows();
+    Points positions = representable(toModel(piece.frame, inSolidOrder(piece, cavity.inner)));
+    Faces faces = cavity.cavity.faces;
+    if (piece.open) {
+      // The strips end in the very points of the model.
+      positions.bottomRows(n) = solid.vertices();
+      faces = withoutLids(faces, n);
+    }
+    Submesh inner = submesh(positions, inSolidOrder(piece, faces));
     result.inner = std::move(inner.mesh);
     if (result.inner.faces.rows() > 0) {
       result.inner.faces.col(1).swap(result.inner.faces.col(2));
@@ -207,6 +234,10 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   const std::unique_ptr<Goal> reached =
       cavity.status == CavityStatus::Found ? makeGoal(options, piece, cavity.outer) : nullptr;
   result.report = hollowingReport(piece, task, reached ? *reached : *goal, cavity, options, stages);
+  if (reached && options.showAnswer) {
+    tell(97, "Picture of the answer");
+    result.picture = pictureOf(piece, task, *reached, cavity);
+  }
   result.report.add("seconds_total", total.seconds());
   tell(100, "Done");
   return result;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/options.h"
+#include "core/picture.h"
 #include "core/report.h"
 #include "core/types.h"
 
@@ -23,6 +24,8 @@ struct Result {
   /// The outer surface when it is not the input's: moved, for `Options::outerUpperBound` > 0, or
   /// without the cavities that the input had already.
   std::optional<TriangleMesh> outer;
+  /// For `Options::showAnswer`, where there is a cavity or a moved outer surface.
+  std::optional<Picture> picture;
   Report report;
 };
 

@@ -2,11 +2,15 @@
 
 #include "core/components.h"
 #include "core/half_edges.h"
+#include "core/lids.h"
 #include "core/moments.h"
 #include "core/validity.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace massprops {
@@ -35,7 +39,8 @@ void requireFiniteTriangles(const TriangleMesh& mesh) {
   }
 }
 
-void requireClosedManifoldEdges(const TriangleMesh& mesh) {
+/// Returns the number of boundary edges, of which there may be some where openings are allowed.
+std::size_t requireManifoldEdges(const TriangleMesh& mesh, bool mayBeOpen) {
   std::size_t boundary = 0;
   std::size_t nonManifold = 0;
   std::size_t incoherent = 0;
@@ -51,33 +56,40 @@ void requireClosedManifoldEdges(const TriangleMesh& mesh) {
                        " where more than two faces meet: use Cleaning and Repairing > Repair non "
                        "Manifold Edges, then run again.");
   }
-  if (boundary > 0) {
+  if (boundary > 0 && !mayBeOpen) {
     throw InvalidInput("The surface is open along " +
                        count(boundary, "boundary edge", "boundary edges") +
                        ": use Remeshing > Close Holes (Cleaning and Repairing > Merge Close "
-                       "Vertices first, if parts only seem joined), then run again.");
+                       "Vertices first, if parts only seem joined), or switch open_surface on if "
+                       "it is to become a shell with these openings, then run again.");
   }
   if (incoherent > 0) {
     throw InvalidInput("The faces on the two sides of " + count(incoherent, "edge", "edges") +
                        " are oriented against each other: use Normals > Re-Orient all faces, "
                        "then run again.");
   }
+  return boundary;
 }
 
 void requireManifoldVertices(const TriangleMesh& mesh) {
-  // Turning round a vertex from one face to the next must lead through all of its faces.
+  // Turning round a vertex from one face to the next, from a boundary if there is one, must lead
+  // through all of its faces.
   const VertexCorners corners = vertexCorners(mesh.vertices.rows(), mesh.faces);
   const std::vector<int> opposite = oppositeHalfEdges(mesh.vertices.rows(), mesh.faces);
   std::size_t bad = 0;
   for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
     const IndexRange all = corners.at(v);
     if (all.size() == 0) continue;
+    const int* const boundary = std::find_if(all.begin(), all.end(), [&](int corner) {
+      return opposite[static_cast<std::size_t>(corner)] < 0;
+    });
+    const int first = boundary != all.end() ? *boundary : *all.begin();
     std::size_t turned = 0;
-    int corner = *all.begin();
+    int corner = first;
     do {
       ++turned;
       corner = opposite[static_cast<std::size_t>(previousHalfEdge(corner))];
-    } while (corner != *all.begin() && turned <= all.size());
+    } while (corner >= 0 && corner != first && turned <= all.size());
     if (turned != all.size()) ++bad;
   }
   if (bad > 0) {
@@ -88,8 +100,16 @@ void requireManifoldVertices(const TriangleMesh& mesh) {
   }
 }
 
-void requireNoSelfIntersection(const TriangleMesh& mesh) {
-  const std::size_t crossing = selfIntersectingFaces(mesh.vertices, mesh.faces).size();
+/// `skinFaces`: those before the lids.
+void requireNoSelfIntersection(const TriangleMesh& mesh, Eigen::Index skinFaces) {
+  const std::vector<int> faces = selfIntersectingFaces(mesh.vertices, mesh.faces);
+  const std::size_t crossing = faces.size();
+  if (crossing > 0 && faces.back() >= skinFaces) {
+    throw InvalidInput(
+        "A lid that closes an opening of the surface, which open_surface needs for "
+        "its own reckoning, crosses the surface: close the opening with Remeshing > "
+        "Close Holes, or cut the model where its openings are flat, then run again.");
+  }
   if (crossing > 0) {
     throw InvalidInput("The surface crosses itself: " + count(crossing, "face", "faces") +
                        " intersect others. Use Selection > Select Self Intersecting Faces, delete "
@@ -106,7 +126,7 @@ RepairedMesh withoutFlatFaces(RepairedMesh mesh) {
   const int removed = mesh.repairs.zeroAreaFaces - before;
   if (removed == 0 && mesh.mesh.faces.rows() == facesBefore) return mesh;
   try {
-    requireClosedManifoldEdges(mesh.mesh);
+    requireManifoldEdges(mesh.mesh, false);
     requireManifoldVertices(mesh.mesh);
   } catch (const InvalidInput&) {
     throw InvalidInput("The surface has " +
@@ -115,6 +135,40 @@ RepairedMesh withoutFlatFaces(RepairedMesh mesh) {
                        "Cleaning and Repairing > Remove T-Vertices by Edge Flip, then run again.");
   }
   return mesh;
+}
+
+/// Removing them as on a closed surface would move the openings.
+void requireNoFlatFaces(const TriangleMesh& open) {
+  const std::size_t flat = facesWithoutArea(open.vertices, open.faces).size();
+  if (flat == 0) return;
+  throw InvalidInput("The open surface has " + count(flat, "face", "faces") +
+                     " without area: use Cleaning and Repairing > Remove T-Vertices by Edge Flip, "
+                     "then run again.");
+}
+
+/// For every face of the part whether it is one of the lids, whose corners are numbered as in the
+/// whole mesh.
+std::vector<char> marksOf(const Submesh& part, const Faces& lids) {
+  const auto corners = [](int a, int b, int c) {
+    std::array<int, 3> sorted{a, b, c};
+    std::sort(sorted.begin(), sorted.end());
+    return sorted;
+  };
+  std::vector<std::array<int, 3>> known;
+  for (Eigen::Index f = 0; f < lids.rows(); ++f) {
+    known.push_back(corners(lids(f, 0), lids(f, 1), lids(f, 2)));
+  }
+  std::sort(known.begin(), known.end());
+  std::vector<char> marks;
+  for (Eigen::Index f = 0; f < part.mesh.faces.rows(); ++f) {
+    const auto whole = [&](int k) {
+      return part.vertexOf[static_cast<std::size_t>(part.mesh.faces(f, k))];
+    };
+    const bool isLid =
+        std::binary_search(known.begin(), known.end(), corners(whole(0), whole(1), whole(2)));
+    marks.push_back(isLid ? 1 : 0);
+  }
+  return marks;
 }
 
 double volumeOf(const Points& vertices, const Faces& faces) {
@@ -140,15 +194,21 @@ Faces stacked(const std::vector<Faces>& parts) {
 
 } // namespace
 
-Solid makeSolid(const TriangleMesh& input) {
+Solid makeSolid(const TriangleMesh& input, bool closeOpenings) {
   requireFiniteTriangles(input);
   RepairedMesh repaired = mergedAndCompacted(input);
   if (repaired.mesh.faces.rows() == 0) {
     throw InvalidInput("The layer has only faces without area: open a model that is a solid body.");
   }
-  requireClosedManifoldEdges(repaired.mesh);
+  const std::size_t boundary = requireManifoldEdges(repaired.mesh, closeOpenings);
   requireManifoldVertices(repaired.mesh);
-  repaired = withoutFlatFaces(std::move(repaired));
+  const Eigen::Index skinFaces = repaired.mesh.faces.rows();
+  if (boundary > 0) {
+    requireNoFlatFaces(repaired.mesh);
+    repaired.mesh = withLids(repaired.mesh);
+  } else {
+    repaired = withoutFlatFaces(std::move(repaired));
+  }
   const TriangleMesh& mesh = repaired.mesh;
   if (mesh.faces.rows() == 0) {
     throw InvalidInput("The surface encloses no volume: open a model that is a solid body.");
@@ -170,7 +230,7 @@ Solid makeSolid(const TriangleMesh& input) {
                          "is a solid body.");
     }
   }
-  requireNoSelfIntersection(mesh);
+  requireNoSelfIntersection(mesh, boundary > 0 ? skinFaces : mesh.faces.rows());
   const std::vector<int> depths = nestingDepths(mesh.vertices, components);
   std::vector<Faces> bodies;
   std::vector<Faces> cavities;
@@ -180,6 +240,10 @@ Solid makeSolid(const TriangleMesh& input) {
                          "it (Mesh Layer > Split in Connected Components), then run again.");
     }
     const bool isCavity = depths[c] == 1;
+    if (isCavity && boundary > 0) {
+      throw InvalidInput("A part of the open surface lies inside of another one: remove it (Mesh "
+                         "Layer > Split in Connected Components), then run again.");
+    }
     if ((volumes[c] < 0.0) != isCavity) {
       turnRound(components[c]);
       ++solid.repairs_.turnedComponents;
@@ -187,7 +251,10 @@ Solid makeSolid(const TriangleMesh& input) {
     (isCavity ? cavities : bodies).push_back(components[c]);
   }
   solid.repairs_.replacedCavities = static_cast<int>(cavities.size());
-  solid.mesh_ = submesh(mesh.vertices, stacked(bodies)).mesh;
+  const Submesh body = submesh(mesh.vertices, stacked(bodies));
+  if (boundary > 0)
+    solid.isLid_ = marksOf(body, mesh.faces.bottomRows(mesh.faces.rows() - skinFaces));
+  solid.mesh_ = body.mesh;
   solid.cavities_ = submesh(mesh.vertices, stacked(cavities)).mesh;
   return solid;
 }

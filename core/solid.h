@@ -4,6 +4,8 @@
 #include "core/repair.h"
 #include "core/types.h"
 
+#include <vector>
+
 namespace massprops {
 
 /// One or more disjoint bodies, each bounded by a closed 2-manifold of its own with triangles
@@ -18,18 +20,23 @@ public:
   /// Length of the bounding box's diagonal.
   double diagonal() const { return diagonal_; }
   const Repairs& repairs() const { return repairs_; }
+  /// For every face whether it is one of a lid that closes an opening of the input; empty when the
+  /// input was closed.
+  const std::vector<char>& isLid() const { return isLid_; }
 
 private:
-  friend Solid makeSolid(const TriangleMesh& input);
+  friend Solid makeSolid(const TriangleMesh& input, bool closeOpenings);
   TriangleMesh mesh_;
   TriangleMesh cavities_;
   double diagonal_ = 0.0;
   Repairs repairs_;
+  std::vector<char> isLid_;
 };
 
 /// Mends what `repair.h` mends, turns components round that face the wrong way throughout, and sets
 /// components that lie inside of another one aside as existing cavities.
+/// `closeOpenings`: boundary loops get lids (lids.h); otherwise an open surface is refused.
 /// \throw InvalidInput with the number of defects and the MeshLab filter that mends them
-Solid makeSolid(const TriangleMesh& input);
+Solid makeSolid(const TriangleMesh& input, bool closeOpenings = false);
 
 } // namespace massprops

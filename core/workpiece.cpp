@@ -2,6 +2,9 @@
 
 #include "core/triangle_tree.h"
 
+#include <algorithm>
+#include <string>
+
 namespace massprops {
 namespace {
 
@@ -28,10 +31,32 @@ void arrangeInSpace(const Solid& solid, Workpiece& piece) {
       piece.faces(f, k) = place;
     }
   }
+  if (!solid.isLid().empty()) {
+    for (const int f : faceOf) piece.isLid.push_back(solid.isLid()[static_cast<std::size_t>(f)]);
+    piece.open = openSurface(working.rows(), piece.faces, piece.isLid);
+  }
   piece.vertices.resize(working.rows(), 3);
   for (Eigen::Index v = 0; v < working.rows(); ++v) {
     piece.vertices.row(v) = working.row(piece.vertexOf[static_cast<std::size_t>(v)]);
   }
+}
+
+Eigen::Index solidRow(const Workpiece& piece, Eigen::Index row) {
+  const Eigen::Index n = piece.vertices.rows();
+  return row < n ? piece.vertexOf[static_cast<std::size_t>(row)]
+                 : n + piece.vertexOf[static_cast<std::size_t>(row - n)];
+}
+
+/// Water that gets into the shell sinks it.
+void requireDryOpenings(const Workpiece& piece, double waterLevel) {
+  double lowest = 1.0;
+  for (const int v : piece.open->rim) lowest = std::min(lowest, piece.vertices(v, 2));
+  const double height = piece.vertices.col(2).maxCoeff();
+  if (lowest > waterLevel * height) return;
+  throw InvalidInput("The surface has an opening at " +
+                     std::to_string(static_cast<int>(100.0 * lowest / height)) +
+                     " % of its height, where the water would run in: lower water_level, or close "
+                     "the opening with Remeshing > Close Holes, then run again.");
 }
 
 } // namespace
@@ -59,6 +84,7 @@ Workpiece makeWorkpiece(const Solid& solid, const Options& options) {
     }
   }
   arrangeInSpace(solid, piece);
+  if (piece.open && options.goal == GoalKind::Float) requireDryOpenings(piece, options.waterLevel);
   piece.cavities = solid.cavities();
   piece.cavities.vertices = toWorking(piece.frame, solid.cavities().vertices);
   return piece;
@@ -66,22 +92,18 @@ Workpiece makeWorkpiece(const Solid& solid, const Options& options) {
 
 Points inSolidOrder(const Workpiece& piece, const Points& values) {
   Points result(values.rows(), 3);
-  for (Eigen::Index v = 0; v < values.rows(); ++v) {
-    result.row(piece.vertexOf[static_cast<std::size_t>(v)]) = values.row(v);
-  }
+  for (Eigen::Index v = 0; v < values.rows(); ++v) result.row(solidRow(piece, v)) = values.row(v);
   return result;
 }
 
 Vector inSolidOrder(const Workpiece& piece, const Vector& values) {
   Vector result(values.size());
-  for (Eigen::Index v = 0; v < values.size(); ++v) {
-    result[piece.vertexOf[static_cast<std::size_t>(v)]] = values[v];
-  }
+  for (Eigen::Index v = 0; v < values.size(); ++v) result[solidRow(piece, v)] = values[v];
   return result;
 }
 
 Faces inSolidOrder(const Workpiece& piece, const Faces& faces) {
-  return faces.unaryExpr([&](int v) { return piece.vertexOf[static_cast<std::size_t>(v)]; });
+  return faces.unaryExpr([&](int v) { return static_cast<int>(solidRow(piece, v)); });
 }
 
 } // namespace massprops

@@ -3,6 +3,7 @@
 
 #include "core/contact.h"
 #include "core/frame.h"
+#include "core/open_surface.h"
 #include "core/options.h"
 #include "core/solid.h"
 
@@ -16,6 +17,9 @@ struct Workpiece {
   /// memory.
   Points vertices;
   Faces faces; ///< outward, in spatial order (triangle_tree.h)
+  /// Of an open surface, whose openings have lids among the faces.
+  std::optional<OpenSurface> open;
+  std::vector<char> isLid; ///< for every face; empty for a closed surface
   /// For every vertex its number in the solid.
   std::vector<int> vertexOf;
   /// Existing cavities, working frame, oriented into them. The new cavity takes their place.
@@ -26,10 +30,12 @@ struct Workpiece {
   std::optional<Vec3> pivot;
 };
 
-/// \throw InvalidInput when a goal that needs a contact area has none, or the pivot lies far away
+/// \throw InvalidInput when a goal that needs a contact area has none, the pivot lies far away, or
+/// an opening lies below the wished waterline
 Workpiece makeWorkpiece(const Solid& solid, const Options& options);
 
-/// Rows, or faces, over the piece's vertices as rows or faces over the solid's.
+/// Rows, or faces, over the piece's n vertices as rows or faces over the solid's; over 2n positions
+/// both halves alike.
 Points inSolidOrder(const Workpiece& piece, const Points& values);
 Vector inSolidOrder(const Workpiece& piece, const Vector& values);
 Faces inSolidOrder(const Workpiece& piece, const Faces& faces);

@@ -24,11 +24,9 @@ const char* const kName = "Mass Property Optimization";
 // has to wrap, and does not scroll.
 const char* const kInfo =
     "<p style='white-space:pre'>"
-    "Finds the cavity with which a closed model stands, spins, floats, hangs or rolls upright\n"
-    "once it is printed. The outer surface stays; the cavity is a new layer. Its normals point\n"
-    "into the cavity, so that both layers together bound the material (Flatten Visible Layers).\n"
-    "Its vertex quality is the wall thickness. Lengths are read as millimetres. The numbers\n"
-    "before and after are in the log.\n"
+    "Finds the cavity with which a model stands, spins, floats, hangs or rolls upright once it is\n"
+    "printed: a new layer whose normals point into the cavity, so that both layers together bound\n"
+    "the material. Its vertex quality is the wall thickness; the numbers are in the log.\n"
     "See <a href='https://doi.org/10.1145/2766955'>Musialski et al. 2015</a>, "
     "<a href='https://doi.org/10.1145/2461912.2461957'>Pr\u00e9vost et al. 2013</a>, "
     "<a href='https://doi.org/10.1145/2601097.2601157'>B\u00e4cher et al. 2014</a>, "
@@ -110,11 +108,7 @@ public:
 
   /// `quality`: a value for every vertex, or none.
   void add(const TriangleMesh& surface, const char* what, const Vector& quality = {}) {
-    added_.reserve(added_.size() + 1);
-    MeshModel* layer = document_.addNewMesh("", titleOf(input_) + " " + what, false);
-    added_.push_back(layer);
-    toVcg(surface, placement_, layer->cm);
-    layer->cm.Tr = input_.cm.Tr;
+    MeshModel* layer = append(surface, what);
     if (quality.size() > 0) {
       layer->updateDataMask(MeshModel::MM_VERTQUALITY);
       Eigen::Index v = 0;
@@ -123,24 +117,51 @@ public:
     updateBoxAndNormals(*layer);
   }
 
+  void add(const ColouredMesh& surface, const std::string& what) {
+    if (surface.mesh.faces.rows() == 0) return;
+    MeshModel* layer = append(surface.mesh, what);
+    layer->updateDataMask(MeshModel::MM_VERTCOLOR);
+    auto colour = surface.colours.begin();
+    for (auto& vertex : layer->cm.vert) {
+      vertex.C() = vcg::Color4b(colour->red, colour->green, colour->blue, 255);
+      ++colour;
+    }
+    updateBoxAndNormals(*layer);
+    pictures_.push_back(layer);
+  }
+
   void keep() {
     kept_ = true;
     if (!added_.empty()) document_.setCurrentMesh(added_.back()->id());
   }
 
-  /// The cavity lies inside of the other layers: they are hidden, so that one sees it.
-  void showLastOnly() {
+  /// The pictures alone or, without any, the last layer, which lies inside of the others.
+  void showAnswerOnly() {
     document_.setVisible(input_.id(), false);
-    for (std::size_t i = 0; i + 1 < added_.size(); ++i) {
-      document_.setVisible(added_[i]->id(), false);
+    for (std::size_t i = 0; i < added_.size(); ++i) {
+      const bool isPicture =
+          std::find(pictures_.begin(), pictures_.end(), added_[i]) != pictures_.end();
+      const bool isLast = i + 1 == added_.size();
+      document_.setVisible(added_[i]->id(), pictures_.empty() ? isLast : isPicture);
     }
   }
 
 private:
+  MeshModel* append(const TriangleMesh& surface, const std::string& what) {
+    added_.reserve(added_.size() + 1);
+    MeshModel* layer =
+        document_.addNewMesh("", titleOf(input_) + " " + QString::fromStdString(what), false);
+    added_.push_back(layer);
+    toVcg(surface, placement_, layer->cm);
+    layer->cm.Tr = input_.cm.Tr;
+    return layer;
+  }
+
   MeshDocument& document_;
   const MeshModel& input_;
   Placement placement_;
   std::vector<MeshModel*> added_;
+  std::vector<const MeshModel*> pictures_;
   bool kept_ = false;
 };
 
@@ -321,6 +342,10 @@ ReturnedValues MassPropertiesFilter::optimize(MeshDocument& document,
 
   NewLayers layers(document, *input);
   if (result.outer) layers.add(*result.outer, "outer offset surface");
+  if (result.picture) {
+    layers.add(result.picture->cutOpen, "cut open");
+    layers.add(result.picture->marks, result.picture->marksName);
+  }
   const bool hasCavity = result.inner.faces.rows() > 0;
   if (hasCavity) layers.add(result.inner, "inner offset surface", result.innerWall);
   layers.keep();
@@ -331,11 +356,15 @@ ReturnedValues MassPropertiesFilter::optimize(MeshDocument& document,
     const QVariant returned = std::visit(ToVariant{}, value);
     if (returned.isValid()) values[key] = returned;
   }
-  if (hasCavity && inMeshLabsWindow()) {
-    layers.showLastOnly();
-    write(
-        "Only the cavity is shown now; Back-Face > Double lights it from outside. Before you "
-        "flatten or cut open (Ctrl and mouse wheel), show the outer layer by a click on its eye.");
+  if ((hasCavity || result.picture) && inMeshLabsWindow()) {
+    layers.showAnswerOnly();
+    write(result.picture
+              ? "Only the answer is shown now: the model cut open, and the centre of mass before "
+                "(red) and after (green). Before you flatten, hide these two layers and show the "
+                "outer and the inner one by a click on their eyes."
+              : "Only the cavity is shown now; Back-Face > Double lights it from outside. Before "
+                "you flatten or cut open (Ctrl and mouse wheel), show the outer layer by a click "
+                "on its eye.");
   }
   return values;
 }

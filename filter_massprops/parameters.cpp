@@ -146,6 +146,17 @@ RichParameterList dialogParameters(double diagonal) {
             "themselves.");
   addWeight(list, "opt_weight_6", weights.outer, "Weight 6: outer displacement",
             "Of the mean squared displacement of the outer surface.");
+  list.addParam(
+      RichBool("open_surface", defaults.openSurface, "Open surface as a shell",
+               "Takes a surface with openings (a vase, a tube) as the outside of a shell: "
+               "the new layer is its inside, joined to it by a strip along every opening. "
+               "Otherwise such a surface is refused."));
+  list.addParam(RichBool("show_layers", defaults.showAnswer, "Show the answer (more layers)",
+                         "Adds a layer with the model cut open along the vertical plane through "
+                         "its centre of mass, and one with the centre of mass before (red) and "
+                         "after (green) and what it is judged by: contact area (Stand, Stand empty "
+                         "and filled, Roll upright), axis (Spin, Yo-yo), waterline (Float) or "
+                         "plumb line (Hang)."));
   return list;
 }
 
@@ -175,6 +186,8 @@ Options optionsFrom(const RichParameterList& parameters) {
   options.waterLevel = number(parameters, "water_level");
   options.waterDensity = number(parameters, "water_density");
   options.targetMass = number(parameters, "target_mass");
+  options.openSurface = parameters.getBool("open_surface");
+  options.showAnswer = parameters.getBool("show_layers");
   return options;
 }
 

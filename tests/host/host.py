@@ -67,8 +67,8 @@ PLY_TYPES = {"char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": 
              "uint32": "u4", "float32": "f4", "float64": "f8"}
 
 
-def read_ply(path):
-    """Vertices n×3 (float64) and triangles m×3 of a PLY file, ASCII or little-endian."""
+def ply_elements(path):
+    """The properties of vertices and faces of a PLY file, ASCII or little-endian, by name."""
     data = pathlib.Path(path).read_bytes()
     end = data.index(b"end_header\n") + len(b"end_header\n")
     elements = []
@@ -102,6 +102,18 @@ def read_ply(path):
             lines = lines[count:]
             result[name] = ({"n": rows[:, 0], "v": rows[:, 1:4].astype(int)} if name == "face"
                             else {f[0]: rows[:, i] for i, f in enumerate(fields)})
+    return result
+
+
+def colours_of(path):
+    """Red, green and blue of the vertices of a PLY file, n×3, 0…255."""
+    vertex = ply_elements(path)["vertex"]
+    return np.stack([np.asarray(vertex[name], int) for name in ("red", "green", "blue")], axis=1)
+
+
+def read_ply(path):
+    """Vertices n×3 (float64) and triangles m×3 of a PLY file."""
+    result = ply_elements(path)
     vertex = result["vertex"]
     vertices = np.stack([np.asarray(vertex[axis], float) for axis in "xyz"], axis=1)
     faces = np.asarray(result["face"]["v"], int) if "face" in result else np.zeros((0, 3), int)

@@ -69,6 +69,26 @@ def polygon_centroid(polygon):
     return ((polygon + following) * cross[:, None]).sum(axis=0) / (3.0 * cross.sum())
 
 
+def section_area(surface, point, normal):
+    """Area that the plane cuts out of what the closed, outward oriented surface encloses."""
+    vertices, faces = surface
+    u = np.cross(normal, [0.3, 0.5, 0.7])
+    u /= np.linalg.norm(u)
+    flat = (vertices - point) @ np.stack([u, np.cross(normal, u)], axis=1)
+    side = (vertices - point) @ normal
+    area = 0.0
+    for a, b, c in faces[np.ptp(np.sign(side)[faces], axis=1) > 0]:
+        ends = []
+        for p, q in ((a, b), (b, c), (c, a)):
+            if (side[p] <= 0) != (side[q] <= 0):
+                cut = (side[q] * flat[p] - side[p] * flat[q]) / (side[q] - side[p])
+                ends.append((side[p] <= 0, cut))
+        if len(ends) == 2:
+            (_, start), (_, end) = sorted(ends, key=lambda e: e[0])
+            area += (start[0] * end[1] - start[1] * end[0]) / 2
+    return abs(area)
+
+
 def tipping_angle(vertices, centre):
     """Degrees: from the distance of the centre of mass to the nearest edge of the contact polygon,
     negative outside of it. Up = +z."""

@@ -4,7 +4,7 @@ import unittest
 import numpy as np
 
 import measure
-from host import (SAMPLES, HostTest, bounds_a_volume, changed_script, layers_of, meshlabserver,
+from host import (SAMPLES, HostTest, bounds_a_volume, changed_script, colours_of, layers_of, meshlabserver,
                   read_ply, report_in, script_of, shutil, write_ply, write_project)
 
 TOP = SAMPLES / "tilted_ellipsoid_top.ply"
@@ -42,6 +42,43 @@ class LayersTest(HostTest):
                                  "modelinneroffsetsurface_out.ply"])
         self.assertEqual(bounds_a_volume(self.folder / names[1], self.folder / names[2]), "")
 
+    def test_the_answer_is_shown_by_two_layers_before_the_cavity(self):
+        script = changed_script(script_of("toy_dinosaur"), self.folder / "s.mlx",
+                                show_layers="true")
+        mesh = shutil.copy(SAMPLES / "toy_dinosaur.ply", self.folder / "model.ply")
+        layers, report = self.project(mesh, script)
+        names = [name for name, _ in layers]
+        self.assertEqual(names, ["model_out.ply", "modelcutopen_out.ply",
+                                 "modelcentreofmassandcontactarea_out.ply",
+                                 "modelinneroffsetsurface_out.ply"])
+        outer, cut, marks, inner = (read_ply(self.folder / name) for name in names)
+        size = np.linalg.norm(np.ptp(outer[0], axis=0))
+        before, after = report["center_of_mass_before"], report["center_of_mass_after"]
+
+        # The section lies in the vertical plane through both centres of mass; one side is left.
+        across = np.cross(before - after, [0, 0, 1])
+        across /= np.linalg.norm(across)
+        side = (cut[0] - after) @ across
+        self.assertLess(min(side.max(), -side.min()), 1e-5 * size)
+        on_plane = np.abs(side[cut[1]]).max(axis=1) < 1e-5 * size
+        a, b, c = cut[0][cut[1][on_plane]].transpose(1, 0, 2)
+        section = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
+        self.assertAlmostEqual(section, measure.section_area(outer, after, across)
+                               - measure.section_area(inner, after, across), delta=1e-3 * section)
+
+        # Balls about the centres, red and green, and lines on the ground round the feet.
+        red, green, blue = (marks[0][colours_of(self.folder / names[2])[:, channel] > 120]
+                            for channel in (0, 1, 2))
+        for centre, ball in ((before, red), (after, green)):
+            distance = np.linalg.norm(ball - centre, axis=1)
+            on_ball = distance < 0.0155 * size
+            self.assertGreater(on_ball.sum(), 200)
+            np.testing.assert_allclose(ball[on_ball].mean(axis=0), centre, atol=1e-3 * size)
+        self.assertLess(np.abs(blue[:, 2] - outer[0][:, 2].min()).max(), 0.004 * size)
+        hull = measure.contact_polygon(outer[0])
+        for corner in hull:
+            self.assertLess(np.linalg.norm(blue[:, :2] - corner, axis=1).min(), 0.004 * size)
+
     def test_the_input_layer_is_saved_as_if_the_filter_had_not_run(self):
         (before, *_), _ = self.project(self.mesh())
         untouched = (self.folder / before[0]).read_bytes()
@@ -63,6 +100,47 @@ class LayersTest(HostTest):
         self.assertEqual(status, 0)
         for word in ("skeleton", "basis", "Optimization", "Report"):
             self.assertRegex(log, f"(?m)^[A-Z]?[A-Za-z, ]*{word}[A-Za-z, ]*$")
+
+    def test_an_open_surface_becomes_one_closed_shell(self):
+        """A leaning vase: with its inside it is a solid that stands, a wall thick but at the rim."""
+        rings, around = 31, 48
+        t = np.linspace(0, 1, rings)
+        angle = np.arange(around) * 2 * np.pi / around
+        radius = 10 + 16 * np.sin(np.pi / 2 * t)
+        wall = np.stack([radius[:, None] * np.cos(angle) + 20 * t[:, None],
+                         radius[:, None] * np.sin(angle), 80 * t[:, None] + 0 * angle],
+                        axis=2).reshape(-1, 3)
+        index = np.arange(rings * around).reshape(rings, around)
+        a, b = index[:-1], index[1:]
+        faces = [np.stack([a, np.roll(a, -1, 1), np.roll(b, -1, 1)], 2),
+                 np.stack([a, np.roll(b, -1, 1), b], 2)]
+        foot = np.stack([np.full(around, rings * around), np.roll(index[0], -1), index[0]], 1)
+        faces = np.concatenate([f.reshape(-1, 3) for f in faces] + [foot])
+        mesh = write_ply(self.folder / "vase.ply", np.vstack([wall, [0, 0, 0]]), faces)
+        script = changed_script(script_of("leaning_ring"), self.folder / "s.mlx",
+                                open_surface="true", inner_lower_bound=1)
+        layers, report = self.project(mesh, script)
+        names = [name for name, _ in layers]
+        self.assertEqual(names, ["vase_out.ply", "vaseinneroffsetsurface_out.ply"])
+        self.assertEqual(report["openings"], 1)
+        self.assertFalse(report["stands_before"])
+        self.assertTrue(report["solved"], report["message"])
+
+        self.assertEqual(bounds_a_volume(*(self.folder / name for name in names)), "")
+        outer, inner = (read_ply(self.folder / name) for name in names)
+        np.testing.assert_array_equal(outer[0], read_ply(mesh)[0].astype(np.float32))
+        mass, centre, _ = measure.hollow_body(outer, inner, 1.24, reference=outer[0].mean(axis=0))
+        self.assertAlmostEqual(report["mass_after"] / mass, 1.0, delta=1e-6)
+        np.testing.assert_allclose(report["center_of_mass_after"], centre, atol=1e-4)
+        self.assertAlmostEqual(report["tip_angle_after"], measure.tipping_angle(outer[0], centre),
+                               delta=1e-3)
+        # The strip ends in the rim's very points.
+        on_rim = outer[0][np.isclose(outer[0][:, 2], 80)]
+        shared = {tuple(p) for p in inner[0]} & {tuple(p) for p in outer[0]}
+        self.assertEqual(shared, {tuple(p) for p in on_rim})
+        rest = inner[1][~np.isin(inner[1], [i for i, p in enumerate(inner[0])
+                                            if tuple(p) in shared]).any(axis=1)]
+        self.assertGreater(measure.surface_distance(outer, (inner[0], rest)), 0.99)
 
     def placed(self, matrix):
         """Runs on a layer with that matrix; checks that the new layer shares it, that both bound a

@@ -58,7 +58,15 @@ class RefusalsTest(HostTest):
 
     def test_a_hole(self):
         points, faces = cube()
-        self.refuse((points, faces[1:]), "3 boundary edges", ["Close Holes"])
+        self.refuse((points, faces[1:]), "3 boundary edges.*open_surface", ["Close Holes"])
+
+    def test_an_open_surface_that_cannot_be_a_shell(self):
+        points, faces = cube()
+        opened = faces[points[faces][:, :, 2].min(axis=1) < 9.9]  # without its top
+        self.refuse((points, opened), "outer surface|stays where it is", ["Close Holes"],
+                    basis_k=8, open_surface="true", outer_upper_bound=0.5)
+        self.refuse((points, opened), "water would run in", ["Close Holes"], goal=5,
+                    open_surface="true", water_level=1)
 
     def test_a_non_manifold_edge(self):
         points, faces = cube()

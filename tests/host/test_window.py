@@ -10,12 +10,16 @@ from window import PICTURES, parameters
 
 
 class FilterTest(window.WindowTest):
-    def test_stand(self):
-        # MeshLab looks along -z with y up: turned, the model shows its side.
+    def dinosaur(self):
+        """MeshLab looks along -z with y up: turned, the model shows its side."""
         vertices, faces = read_ply(SAMPLES / "toy_dinosaur.ply")
         vertices = vertices[:, [0, 2, 1]] * [1, 1, -1]
+        return vertices, write_ply(self.folder / "toy.dinosaur.ply", vertices, faces)
+
+    def test_stand(self):
+        vertices, file = self.dinosaur()
         diagonal = np.linalg.norm(np.ptp(vertices, axis=0))
-        self.open(write_ply(self.folder / "toy.dinosaur.ply", vertices, faces))
+        self.open(file)
         dialog = self.open_filter()
 
         labels = [w for w in self.desktop.all(dialog, "label") if self.desktop.shown(w)]
@@ -71,6 +75,28 @@ class FilterTest(window.WindowTest):
         cut = self.view("cut.png")
         changed = np.abs(cut - solid).max(axis=2) > 12
         self.assertGreater((changed & shape(cavity)).sum(), 0.5 * shape(cavity).sum())
+
+    def test_the_answer_is_shown(self):
+        self.open(self.dinosaur()[1])
+        dialog = self.open_filter()
+        self.choose(dialog, "Up axis", "+Y")
+        self.desktop.click(self.desktop.find(dialog, "check box", "Show the answer (more layers)"))
+        self.desktop.click(self.desktop.find(dialog, "push button", "Apply"))
+        self.wait_for_log("Applied filter " + FILTER)
+        self.desktop.click(self.desktop.find(dialog, "push button", "Close"))
+        self.assertEqual(self.layers(),
+                         ["toy.dinosaur", "toy_dinosaur cut open",
+                          "toy_dinosaur centre of mass and contact area",
+                          "toy_dinosaur inner offset surface *"])
+        picture = self.view("answer.png")
+        red, green, blue = picture.transpose(2, 0, 1)
+        # The cut faces the viewer; the balls stick half out of it.
+        for what, seen, least in (
+                ("the cut", (red > 1.5 * blue) & (red > 1.2 * green) & (green > 1.2 * blue), 2000),
+                ("before", (red > 2 * green) & (red > 2 * blue), 100),
+                ("after", (green > 1.5 * red) & (green > 1.5 * blue), 100),
+                ("the contact area", (blue > 1.5 * green) & (blue > 3 * red), 50)):
+            self.assertGreater(seen.sum(), least, what)
 
     def refuse(self, vertices, faces, *sentences):
         self.open(write_ply(self.folder / "refused.ply", vertices, faces))
