@@ -106,7 +106,7 @@ Points levelAtRim(const Points& vertices, const Faces& faces, const std::vector<
     up.stableNormalize();
     const Vec3 outward = (vertices.row(v) - axis.row(v)).transpose();
     const Vec3 level = outward - outward.dot(up) * up;
-    const VertexCorners::Range around = corners.at(v);
+    const IndexRange around = corners.at(v);
     const bool isSteep = std::all_of(around.begin(), around.end(), [&](int corner) {
       const Vec3 n = normal(corner / 3);
       return isLid[at(corner / 3)] != 0 || n.dot(level) > kSteep * n.norm() * level.norm();
