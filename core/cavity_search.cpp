@@ -24,6 +24,10 @@ constexpr double kOuterStart = 0.1;
 constexpr double kBoundSlope = 1.0;
 /// Neighbours share a missing wall: correcting each by a little more needs fewer rounds.
 constexpr double kOverstep = 1.5;
+/// An offset beyond this share of its range is as good as the greatest; where the cavity is
+/// narrower than so many walls there, it is a thread that the goal does without.
+constexpr double kUnwanted = 0.75;
+constexpr double kUnwantedWidth = 3.0;
 constexpr double kLeastGain = 0.6;
 constexpr double kFeasibility = 1e-6;
 /// Of what a cavity could gain over the solid; below, another start is not worth its time.
@@ -109,10 +113,14 @@ void calmOuter(const CavityTask& task, const CavityResult& result, const Neighbo
 }
 
 /// Marks vertices where the cavity is narrower than the wall: such a channel serves no goal, cannot
-/// be printed, and is where the surface folds first. Returns whether there were any.
+/// be printed, and is where the surface folds first. `fillUnwanted`: a wider one, too, that the
+/// optimisation would rather close, its offsets being near the greatest. Returns whether there were
+/// any.
 /// `faces`: of the cavity, without an open surface's strips and lids.
-bool fillNarrowParts(const CavityTask& task, const Points& inner, const Faces& faces,
+bool fillNarrowParts(const CavityTask& task, const OffsetSurfaces& surfaces,
+                     const OffsetBounds& bounds, const Faces& faces, bool fillUnwanted,
                      std::vector<char>& solid) {
+  const Points& inner = surfaces.inner;
   if (faces.rows() == 0) return false;
   const TriangleTree tree(inner, faces,
                           faces.rows() == task.faces.rows() ? TriangleTree::Order::Spatial
@@ -123,8 +131,12 @@ bool fillNarrowParts(const CavityTask& task, const Points& inner, const Faces& f
     for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
       char& mark = solid[static_cast<std::size_t>(v)];
       if (mark != 0) continue;
+      const double share =
+          (surfaces.innerOffsets[v] - bounds.lower[v]) / (bounds.upper[v] - bounds.lower[v]);
+      const bool isUnwanted = fillUnwanted && share > kUnwanted;
+      const double width = (isUnwanted ? kUnwantedWidth : 1.0) * task.wall;
       const Vec3 inwards = -task.field.directions.row(v).transpose();
-      if (tree.firstHit(inner.row(v).transpose(), inwards, task.wall) >= task.wall) continue;
+      if (tree.firstHit(inner.row(v).transpose(), inwards, width) >= width) continue;
       mark = 1;
       any = true;
     }
@@ -251,6 +263,12 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
 
   OptimizeOptions solver;
   CavityResult result;
+  struct Attempt {
+    OptimizeResult best;
+    std::vector<char> solid;
+  };
+  std::optional<Attempt> withUnwanted;
+  bool fillUnwanted = freedom > 0.0;
   // Once the wall is kept, most rounds only smooth out folds.
   bool onlyFolds = false;
   for (int round = 0; round < kMostRounds; ++round) {
@@ -281,15 +299,28 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
       coefficients = best.x;
       result.evaluations += best.evaluations;
       result.stopReason = best.stopReason;
+      if (withUnwanted && isBetter(withUnwanted->best, best)) {
+        // The goal needs those parts.
+        solid = std::move(withUnwanted->solid);
+        coefficients = withUnwanted->best.x;
+        withUnwanted.reset();
+        fillUnwanted = false;
+        result.secondsOptimization += optimization.seconds();
+        continue;
+      }
+      if (fillUnwanted) withUnwanted = Attempt{std::move(best), solid};
     } else {
       result.stopReason = "least offsets";
     }
     OffsetSurfaces surfaces = offsetSurfaces(model, coefficients);
     if (round < kTrims &&
-        fillNarrowParts(task, surfaces.inner, offsetFaces(task, result.cavity.faces), solid)) {
+        fillNarrowParts(task, surfaces, model.inner, offsetFaces(task, result.cavity.faces),
+                        fillUnwanted, solid)) {
       result.secondsOptimization += optimization.seconds();
       continue;
     }
+    withUnwanted.reset();
+    fillUnwanted = false;
     result.secondsOptimization += optimization.seconds();
 
     const Stopwatch inspection;

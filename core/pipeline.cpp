@@ -24,7 +24,7 @@ namespace {
 constexpr double kDiffusionLength = 0.02;
 
 /// Above this gap another search, with other directions, is worth its time.
-constexpr double kFarFromLimit = 0.1;
+constexpr double kFarFromLimit = 0.075;
 
 /// Vertices of the proxy. On models with thin limbs its skeleton costs some per cent of what
 /// hollowing gains, with a scatter that falls slowly with its size (benchmarks/results.md). The
