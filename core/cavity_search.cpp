@@ -21,6 +21,9 @@ constexpr int kTrims = 3;
 constexpr double kShrink = 0.6;
 /// The outer surface starts near where it was: it is to look the same.
 constexpr double kOuterStart = 0.1;
+/// Rounds in which a goal that depends on the outer surface follows its motion; then that rests,
+/// and the cavity is fitted to it.
+constexpr int kFollowing = 3;
 constexpr double kBoundSlope = 1.0;
 /// Neighbours share a missing wall: correcting each by a little more needs fewer rounds.
 constexpr double kOverstep = 1.5;
@@ -167,7 +170,7 @@ Vector rowsAt(const Vector& values, const std::vector<int>& rows) {
 }
 
 /// The proxy's vertices are some of the surface's, with the same directions and bounds.
-OptimizeResult optimizeOnProxy(const CavityTask& task, const OffsetModel& fine,
+OptimizeResult optimizeOnProxy(const CavityTask& task, const OffsetModel& fine, const Goal& goal,
                                const std::vector<char>& solid, const Vector& start,
                                const OptimizeOptions& options) {
   const Proxy& proxy = *task.proxy;
@@ -186,19 +189,19 @@ OptimizeResult optimizeOnProxy(const CavityTask& task, const OffsetModel& fine,
   coarse.innerFaces =
       cavitySurface(offsetSurfaces(coarse, start).inner, proxy.mesh.faces, std::move(solidAtProxy))
           .faces;
-  return minimizeCoarseToFine(fine, coarse, task.goal, task.weights, start, options);
+  return minimizeCoarseToFine(fine, coarse, goal, task.weights, start, options);
 }
 
-OptimizeResult optimizeOffsets(const CavityTask& task, const OffsetModel& model,
+OptimizeResult optimizeOffsets(const CavityTask& task, const OffsetModel& model, const Goal& goal,
                                const std::vector<char>& solid, const Vector& start,
                                const OptimizeOptions& options) {
   /// Below it the whole surface is evaluated quickly enough.
   constexpr Eigen::Index kWorthAProxy = 12000;
   const bool onProxy = task.proxy != nullptr && task.vertices.rows() >= kWorthAProxy &&
                        !model.outer && !model.isOpen && task.weights.smoothness == 0.0;
-  if (onProxy) return optimizeOnProxy(task, model, solid, start, options);
-  return minimize([&](const Vector& x) { return evaluate(model, task.goal, task.weights, x); },
-                  start, options);
+  if (onProxy) return optimizeOnProxy(task, model, goal, solid, start, options);
+  return minimize([&](const Vector& x) { return evaluate(model, goal, task.weights, x); }, start,
+                  options);
 }
 
 /// Coefficients whose surface comes near to the limit's cavity.
@@ -271,12 +274,21 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
   bool fillUnwanted = freedom > 0.0;
   // Once the wall is kept, most rounds only smooth out folds.
   bool onlyFolds = false;
+  std::unique_ptr<Goal> movedGoal;
+  const Goal* goal = &task.goal;
   for (int round = 0; round < kMostRounds; ++round) {
     result.rounds = round + 1;
     addMarks(solid, tooThin(task.field, bounds));
     model.inner = bounds;
     keepOrdered(model.inner);
     model.inner.upper = model.inner.lower + freedom * (model.inner.upper - model.inner.lower);
+
+    if (task.goalFor) {
+      const OffsetSurfaces present = offsetSurfaces(model, coefficients);
+      if (round == kFollowing) model.outer->lower = model.outer->upper = present.outerOffsets;
+      movedGoal = task.goalFor(task.deliverable(present.outer));
+      goal = movedGoal.get();
+    }
 
     const Stopwatch optimization;
     result.cavity = cavitySurface(cavityPositions(task, offsetSurfaces(model, coefficients).inner),
@@ -288,10 +300,10 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
     }
     model.innerFaces = result.cavity.faces;
     if (freedom > 0.0) {
-      OptimizeResult best = optimizeOffsets(task, model, solid, coefficients, solver);
+      OptimizeResult best = optimizeOffsets(task, model, *goal, solid, coefficients, solver);
       if (round == 0 && isFarFromLimit(task, best)) {
-        OptimizeResult other =
-            optimizeOffsets(task, model, solid, towardsLimit(task, model, outerStart), solver);
+        OptimizeResult other = optimizeOffsets(task, model, *goal, solid,
+                                               towardsLimit(task, model, outerStart), solver);
         result.evaluations += other.evaluations;
         if (isBetter(other, best)) std::swap(best, other);
       }
@@ -337,6 +349,7 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
     result.secondsInspection += inspection.seconds();
     if (progress) progress(1.0 - 1.0 / (2.0 + round));
     if (result.inspection.isClean()) {
+      if (task.goalFor && round < kFollowing) continue;
       // A moved outer surface may serve the goal alone.
       const bool cavity = result.inspection.components > 0;
       if (cavity || mayMoveOuterAlone(task)) result.status = CavityStatus::Found;

@@ -11,6 +11,7 @@
 #include "core/types.h"
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -32,6 +33,8 @@ struct CavityTask {
   OffsetBounds inner = {};
   std::optional<OffsetBounds> outer = {};
   std::optional<Limit> limit = {}; ///< empty: not known
+  /// Empty, or what `goal` becomes when the outer surface has moved to these positions.
+  std::function<std::unique_ptr<Goal>(const Points&)> goalFor = {};
   /// Rounds working positions to those that can be delivered, still in the working frame.
   std::function<Points(const Points&)> deliverable = {};
   /// Null: the basis lives on the vertices themselves.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 namespace massprops {
@@ -33,10 +34,11 @@ Body hollowBody(const CavityTask& task, const CavityResult& cavity) {
   Body body;
   body.mass = shellMoments(outer, inner, 1.0, task.fillDensity);
   body.volume = outer[0] - inner[0];
-  body.objective =
-      objectiveValue(task.goal, task.weights, body.mass, body.volume / task.solidMoments[0], task.L,
-                     cavity.innerOffsets, task.mass, cavity.outerOffsets);
-  body.violation = largestViolation(task.goal, body.mass);
+  const std::unique_ptr<Goal> moved = task.goalFor ? task.goalFor(cavity.outer) : nullptr;
+  const Goal& goal = moved ? *moved : task.goal;
+  body.objective = objectiveValue(goal, task.weights, body.mass, body.volume / task.solidMoments[0],
+                                  task.L, cavity.innerOffsets, task.mass, cavity.outerOffsets);
+  body.violation = largestViolation(goal, body.mass);
   return body;
 }
 

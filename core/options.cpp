@@ -83,11 +83,6 @@ void requireSensible(const Options& options, Eigen::Index vertexCount, double di
   require(options.goal != GoalKind::StandEmptyAndFilled || options.fillDensity > 0.0,
           "The goal Stand empty and filled needs fill_density, the density of what will be in the "
           "cavity: 1 for water.");
-  const bool outerMatters =
-      options.goal == GoalKind::StandEmptyAndFilled || options.goal == GoalKind::Float;
-  require(!outerMatters || options.outerUpperBound == 0.0,
-          "The goals Float and Stand empty and filled work with the outer surface as it is: set "
-          "outer_lower_bound and outer_upper_bound to 0.");
   require(!options.pivot || options.pivot->allFinite(),
           "pivot_x, pivot_y and pivot_z must be coordinates of a point.");
   require(options.waterLevel > 0.0 && options.waterLevel <= 1.0,

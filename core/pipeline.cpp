@@ -175,6 +175,9 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
     task.outer = outerBounds(piece.vertices, field, options.outerLowerBound / piece.frame.length,
                              options.outerUpperBound / piece.frame.length);
     if (options.goal == GoalKind::Hang && !piece.pivot) holdTop(piece.vertices, *task.outer);
+    if (options.goal == GoalKind::Float || options.goal == GoalKind::StandEmptyAndFilled) {
+      task.goalFor = [&](const Points& outer) { return makeGoal(options, piece, outer); };
+    }
   }
   task.deliverable = [&](const Points& working) {
     return toWorking(piece.frame, representable(toModel(piece.frame, working)));

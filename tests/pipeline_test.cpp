@@ -1,4 +1,5 @@
 // The whole filter: what it promises about every result, measured with other means than its own.
+#include "core/contact.h"
 #include "core/pipeline.h"
 
 #include "checks.h"
@@ -527,6 +528,45 @@ TEST(Pipeline, MovesTheOuterSurfaceWithinItsBoundsOutwardsAndNotItsFeet) {
       EXPECT_LT(moved[v], 1e-9);
     }
   }
+}
+
+TEST(Pipeline, WeighsAsMuchAsTheWaterThatTheMovedOuterSurfaceDisplaces) {
+  Options options;
+  options.goal = GoalKind::Float;
+  options.waterLevel = 1.0;
+  const TriangleMesh model = transformed(blob(8), someRotation(), Vec3::Zero());
+  const Result still = optimizeMassProperties(model, options);
+  options.outerUpperBound = 0.1;
+  const Result moved = optimizeMassProperties(model, options);
+  ASSERT_TRUE(moved.outer.has_value());
+  const double water = options.waterDensity / 1000.0;
+  const double displaced = quadratureMoments(*moved.outer)[0];
+  EXPECT_GT(displaced, 1.01 * quadratureMoments(model)[0]);
+  EXPECT_TRUE(std::get<bool>(moved.report.at("solved")));
+  EXPECT_NEAR(number(moved, "mass_after"), displaced * water, 2e-6 * displaced * water);
+  EXPECT_NEAR(number(still, "mass_after"), quadratureMoments(model)[0] * water,
+              2e-6 * displaced * water);
+}
+
+TEST(Pipeline, FillsTheMovedOuterSurfaceLessItsWalls) {
+  Options options = stand();
+  options.goal = GoalKind::StandEmptyAndFilled;
+  options.fillDensity = 1.0;
+  options.innerLowerBound = 0.08;
+  const TriangleMesh model = leaningPillar();
+  const Result still = optimizeMassProperties(model, options);
+  options.outerUpperBound = 0.1;
+  const Result moved = optimizeMassProperties(model, options);
+  ASSERT_TRUE(moved.outer.has_value());
+  EXPECT_LT(number(moved, "max_constraint_violation"),
+            std::max(1e-6, number(still, "max_constraint_violation")));
+  const auto outer = quadratureMoments(*moved.outer);
+  const auto inner = quadratureMoments(moved.inner); // negative
+  const auto filled = options.density * (outer + inner) - options.fillDensity * inner;
+  const Vec3 centre(filled[1] / filled[0], filled[2] / filled[0], filled[3] / filled[0]);
+  const ContactArea area = groundContact(model.vertices, {}).area;
+  const Vec3 about = groundContact(model.vertices, {}).centre;
+  EXPECT_NEAR(number(moved, "tip_angle_filled_after"), tippingAngle(area, centre - about), 1e-3);
 }
 
 TEST(Pipeline, LeavesTheOuterSurfaceAloneByDefault) {

@@ -141,7 +141,6 @@ class RefusalsTest(HostTest):
         self.refuse(cube(), "water_level", goal=floats, water_level=0)
         self.refuse(cube(), "water_level", goal=floats, water_level=1.5)
         self.refuse(cube(), "water_density", goal=floats, water_density=0)
-        self.refuse(cube(), "outer surface as it is", goal=floats, outer_upper_bound=0.5)
         self.refuse(cube(), "target_mass", goal=mass, target_mass=-1)
         self.refuse(cube(), "pivot lies", goal=hang, use_pivot="true", pivot_x=1e6)
 

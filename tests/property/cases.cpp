@@ -536,8 +536,7 @@ PropertyCase makeCase(std::uint32_t seed, int number) {
       o.radiusY = diagonal * chance.between(0.03, 0.4);
     }
   }
-  const bool outerStays = o.goal == GoalKind::Float || o.goal == GoalKind::StandEmptyAndFilled;
-  if (chance.oneIn(6) && !outerStays) {
+  if (chance.oneIn(6)) {
     o.outerUpperBound = diagonal * chance.logBetween(0.002, 0.1);
     o.outerLowerBound = chance.oneIn(2) ? 0.0 : chance.between(0.0, 1.0) * o.outerUpperBound;
   }

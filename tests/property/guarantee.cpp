@@ -505,12 +505,12 @@ double volumeBelow(const TriangleMesh& mesh, const Vec3& up, double level) {
 }
 
 /// A body that is told to float as wished displaces its own weight there.
-void checkFloating(const PropertyCase& c, const Result& result, const Upright& frame,
-                   const Body& body, Findings& found) {
+void checkFloating(const PropertyCase& c, const TriangleMesh& outer, const Result& result,
+                   const Upright& frame, const Body& body, Findings& found) {
   const Vec3 up = frame.turn.row(2).transpose();
   const double ground = up.dot(frame.origin);
-  const double height = (c.body.vertices * up).maxCoeff() - ground;
-  const double displaced = volumeBelow(c.body, up, ground + c.options.waterLevel * height);
+  const double height = (outer.vertices * up).maxCoeff() - ground;
+  const double displaced = volumeBelow(outer, up, ground + c.options.waterLevel * height);
   found.near("the mass of a body that floats as wished", body.mass,
              displaced * c.options.waterDensity / 1000, 1e-5 * body.mass);
   found.near("draught_after", number(result, "draught_after"), c.options.waterLevel * height,
@@ -805,7 +805,7 @@ std::vector<std::string> brokenPromises(const PropertyCase& c, const Result& res
       found.require(std::get<int>(result.report.at("resting_faces_after")) == 1,
                     "solved, but it rests on several faces");
     } else if (goal == GoalKind::Float) {
-      checkFloating(c, result, frame, after, found);
+      checkFloating(c, outer, result, frame, after, found);
     }
   }
   if (exact) {
