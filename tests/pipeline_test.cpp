@@ -786,8 +786,6 @@ TEST(Pipeline, RefusesAbsurdParametersByName) {
       {with([](Options& o) { o.density = 0.0; }), "density"},
       {with([](Options& o) { o.fillDensity = -1.0; }), "fill_density"},
       {with([](Options& o) { o.goal = GoalKind::StandEmptyAndFilled; }), "fill_density"},
-      {with([](Options& o) { o.goal = GoalKind::Float, o.outerUpperBound = 0.1; }),
-       "outer_upper_bound"},
       {with([](Options& o) { o.goal = GoalKind::YoYo, o.basisSize = 4; }), "basis_k"},
       {with([](Options& o) { o.waterLevel = 0.0; }), "water_level"},
       {with([](Options& o) { o.waterLevel = 1.1; }), "water_level"},
