@@ -114,6 +114,12 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   const Vector coarseArea = proxy.interpolation.transposeTimes(area);
   const Moments solidMoments = moments(piece.vertices, piece.faces);
   const std::unique_ptr<Goal> goal = makeGoal(options, piece, piece.vertices);
+  const int afterSkeleton =
+      kStart + static_cast<int>((kEnd - kStart) *
+                                shareOfSkeleton(piece.vertices.rows(), coarse.vertices.rows()));
+  const auto tellBeside = [&](double share) {
+    tell(kStart + static_cast<int>(share * (afterSkeleton - kStart)), "Mean curvature skeleton");
+  };
   Skeleton skeleton;
   HarmonicBasis basis;
   std::optional<Limit> limit;
@@ -128,20 +134,20 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
         basis = harmonicBasis(coarse.vertices, coarse.faces, coarseL, coarseArea / coarseArea.sum(),
                               options.basisSize);
         stages.secondsBasis = time.seconds();
+        tellBeside(0.25);
         if (options.outerUpperBound > 0.0 || piece.open) return;
         const Stopwatch limitTime;
         const AdmissibleCells cells =
             admissibleCells(piece.vertices, piece.faces, coarse, piece.wall);
         if (cells.rows() == 0) return;
+        tellBeside(0.5);
         limit = limitOf(*goal, options.weights, solidMoments, fillingSeenBy(options), cells);
         stages.secondsLimit = limitTime.seconds();
+        tellBeside(0.75);
       });
   stages.skeletonFailures = skeleton.failedComponents;
   stages.repairs = solid.repairs().describe();
 
-  const int afterSkeleton =
-      kStart + static_cast<int>((kEnd - kStart) *
-                                shareOfSkeleton(piece.vertices.rows(), coarse.vertices.rows()));
   tell(afterSkeleton, "Offset directions");
   const Points axis = smoothedOverSurface(skeleton.points, coarseL, coarseArea, kDiffusionLength);
   Points fineAxis = proxy.interpolation * axis;
