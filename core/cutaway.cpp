@@ -1,8 +1,8 @@
 #include "core/cutaway.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include "core/surface_mesh.h"
+
 #include <CGAL/Polygon_mesh_processing/clip.h>
-#include <CGAL/Surface_mesh.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,8 @@
 namespace massprops {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+using Kernel = SurfaceKernel;
+using Mesh = SurfaceMesh;
 
 /// Of the body's size: cut points are rounded.
 constexpr double kOnPlane = 1e-9;
@@ -21,17 +21,8 @@ constexpr double kOnPlane = 1e-9;
 
 ColouredMesh cutaway(const TriangleMesh& material, Eigen::Index cavityVertices, const Vec3& point,
                      const Vec3& normal) {
-  Mesh mesh;
+  Mesh mesh = surfaceMesh(material);
   mesh.set_recycle_garbage(false); // vertices are known by their numbers
-  for (Eigen::Index v = 0; v < material.vertices.rows(); ++v) {
-    mesh.add_vertex({material.vertices(v, 0), material.vertices(v, 1), material.vertices(v, 2)});
-  }
-  for (Eigen::Index f = 0; f < material.faces.rows(); ++f) {
-    const auto at = [&](int k) {
-      return Mesh::Vertex_index(static_cast<Mesh::size_type>(material.faces(f, k)));
-    };
-    mesh.add_face(at(0), at(1), at(2));
-  }
   CGAL::Polygon_mesh_processing::clip(
       mesh,
       Kernel::Plane_3(Kernel::Point_3(point.x(), point.y(), point.z()),

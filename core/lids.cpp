@@ -1,12 +1,11 @@
 #include "core/lids.h"
 
+#include "core/surface_mesh.h"
 #include "core/validity.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/border.h>
 #include <CGAL/Polygon_mesh_processing/refine.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
-#include <CGAL/Surface_mesh.h>
 
 #include <iterator>
 #include <vector>
@@ -14,8 +13,8 @@
 namespace massprops {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+using Kernel = SurfaceKernel;
+using Mesh = SurfaceMesh;
 namespace Processing = CGAL::Polygon_mesh_processing;
 
 void requireLid(bool isClosed) {
@@ -29,16 +28,7 @@ void requireLid(bool isClosed) {
 } // namespace
 
 TriangleMesh withLids(const TriangleMesh& open) {
-  Mesh mesh;
-  for (Eigen::Index v = 0; v < open.vertices.rows(); ++v) {
-    mesh.add_vertex({open.vertices(v, 0), open.vertices(v, 1), open.vertices(v, 2)});
-  }
-  for (Eigen::Index f = 0; f < open.faces.rows(); ++f) {
-    const auto at = [&](int k) {
-      return Mesh::Vertex_index(static_cast<Mesh::size_type>(open.faces(f, k)));
-    };
-    mesh.add_face(at(0), at(1), at(2));
-  }
+  Mesh mesh = surfaceMesh(open);
   std::vector<Mesh::Halfedge_index> loops;
   Processing::extract_boundary_cycles(mesh, std::back_inserter(loops));
   for (const Mesh::Halfedge_index loop : loops) {
