@@ -164,11 +164,13 @@ std::optional<std::vector<int>> caps(const Points& vertices, const Faces& faces,
     }
     std::vector<Mesh::Face_index> cap;
     // The least area takes time up to the cube of the border's length: a long border is first tried
-    // in a plane.
+    // in a plane, a very long one only there and among the triangles of a Delaunay triangulation.
     constexpr std::size_t kLong = 48;
+    constexpr std::size_t kVeryLong = 128;
     CGAL::Polygon_mesh_processing::triangulate_hole(
         mesh, border, std::back_inserter(cap),
-        CGAL::parameters::use_2d_constrained_delaunay_triangulation(loop.size() > kLong));
+        CGAL::parameters::use_2d_constrained_delaunay_triangulation(loop.size() > kLong)
+            .do_not_use_cubic_algorithm(loop.size() > kVeryLong));
     if (cap.empty()) {
       // Retreat by one ring.
       for (const int v : loop) solid[at(v)] = 1;
