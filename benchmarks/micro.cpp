@@ -84,8 +84,8 @@ void directionField(benchmark::State& state) {
 void checker(benchmark::State& state) {
   const Animal& a = animal(state.range(0));
   for ([[maybe_unused]] auto _ : state) {
-    benchmark::DoNotOptimize(inspect(a.inner, a.piece.faces, a.piece.vertices, a.piece.faces,
-                                     a.piece.wall, false, false));
+    const TriangleTree surface(a.piece.vertices, a.piece.faces, TriangleTree::Order::Spatial);
+    benchmark::DoNotOptimize(inspect(a.inner, a.piece.faces, surface, a.piece.wall, false));
   }
   countTriangles(state, a);
 }

@@ -1,7 +1,6 @@
 #include "core/bounds.h"
 
 #include "core/parallel.h"
-#include "core/triangle_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,12 +24,16 @@ OffsetBounds innerBounds(const OffsetField& field, double wall, double factor) {
   return {wall * field.clearance.cwiseMax(kLeastClearance).cwiseInverse(), factor * field.reach};
 }
 
-OffsetBounds keepingWall(const Points& vertices, const Faces& faces, const OffsetField& field,
-                         OffsetBounds bounds, double wall) {
+OffsetBounds innerBoundsOfCopy(const OffsetField& field, double wall, double factor) {
+  return {wall * field.meanClearance.cwiseMax(kLeastClearance).cwiseInverse(),
+          factor * field.reach};
+}
+
+OffsetBounds keepingWall(const Points& vertices, const TriangleTree& surface,
+                         const OffsetField& field, OffsetBounds bounds, double wall) {
   constexpr int kMostSteps = 20;
   constexpr Eigen::Index kChunk = 1024;
   const double enough = (1.0 - kWallSlack) * wall;
-  const TriangleTree surface(vertices, faces);
   forChunks(vertices.rows(), kChunk, [&](const Chunk& chunk) {
     for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
       double& offset = bounds.lower[v];

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/offset_field.h"
+#include "core/triangle_tree.h"
 #include "core/types.h"
 
 #include <vector>
@@ -18,10 +19,14 @@ struct OffsetBounds {
 /// l_i > u_i. docs/math.md "Wall thickness".
 OffsetBounds innerBounds(const OffsetField& field, double wall, double factor);
 
+/// The same for a coarse copy, whose faces are turned against the surface's own: l_i = wall /
+/// cosine between d_i and the mean normal at vertex i. `keepingWall` sees to the rest.
+OffsetBounds innerBoundsOfCopy(const OffsetField& field, double wall, double factor);
+
 /// The same bounds with the lower ones raised until every vertex x_i − l_i d_i is at least `wall`
 /// away from the whole surface, not only from the faces around it; past u_i where that cannot be.
-OffsetBounds keepingWall(const Points& vertices, const Faces& faces, const OffsetField& field,
-                         OffsetBounds bounds, double wall);
+OffsetBounds keepingWall(const Points& vertices, const TriangleTree& surface,
+                         const OffsetField& field, OffsetBounds bounds, double wall);
 
 /// Vertices without room between their bounds, or without a direction that moves all their faces
 /// inwards: 1, else 0.

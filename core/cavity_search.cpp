@@ -1,6 +1,5 @@
 #include "core/cavity_search.h"
 
-#include "core/coarse_to_fine.h"
 #include "core/graph.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
@@ -8,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 
 namespace massprops {
 namespace {
@@ -25,8 +25,10 @@ constexpr double kOuterStart = 0.1;
 /// and the cavity is fitted to it.
 constexpr int kFollowing = 3;
 constexpr double kBoundSlope = 1.0;
-/// Neighbours share a missing wall: correcting each by a little more needs fewer rounds.
-constexpr double kOverstep = 1.5;
+/// Correcting a missing wall by a little more needs fewer rounds; by twice as much each time that
+/// the same vertex fails, for its offset may lead along the surface.
+constexpr double kOverstep = 1.1;
+constexpr int kMostDoublings = 6;
 /// An offset beyond this share of its range is as good as the greatest; where the cavity is
 /// narrower than so many walls there, it is a thread that the goal does without.
 constexpr double kUnwanted = 0.75;
@@ -57,8 +59,10 @@ void markWithin(const CavityTask& task, const Neighbours& neighbours, int v, dou
 }
 
 /// Moves the bounds so that what the inspection found cannot happen again in the same way.
+/// `thinRounds`: how often each vertex had too thin a wall.
 void tighten(const CavityTask& task, const CavityResult& result, const Neighbours& neighbours,
-             OffsetBounds& bounds, std::vector<char>& solid, bool patient) {
+             OffsetBounds& bounds, std::vector<char>& solid, std::vector<int>& thinRounds,
+             bool patient) {
   const auto mark = [&](int v) {
     solid[static_cast<std::size_t>(v)] = 1;
     for (const int w : neighbours[static_cast<std::size_t>(v)]) {
@@ -85,8 +89,8 @@ void tighten(const CavityTask& task, const CavityResult& result, const Neighbour
   for (const int v : result.inspection.thin) {
     // Does going deeper lead away from the nearest point of the outer surface?
     const Vec3 y = result.inner.row(v).transpose();
-    const Faces& outerFaces = task.open != nullptr ? task.open->skin : task.faces;
-    const auto nearest = outerFaces.row(result.inspection.nearestFace[static_cast<std::size_t>(v)]);
+    const auto nearest =
+        task.surface.faces().row(result.inspection.nearestFace[static_cast<std::size_t>(v)]);
     const Vec3 a = result.outer.row(nearest[0]).transpose();
     const Vec3 b = result.outer.row(nearest[1]).transpose();
     const Vec3 c = result.outer.row(nearest[2]).transpose();
@@ -94,7 +98,9 @@ void tighten(const CavityTask& task, const CavityResult& result, const Neighbour
     const Vec3 away = (y - (weights[0] * a + weights[1] * b + weights[2] * c)).normalized();
     const double missing = task.wall - result.inspection.wall[v];
     const double gain = -away.dot(task.field.directions.row(v).transpose());
-    const double step = kOverstep * missing / std::max(std::abs(gain), kLeastGain);
+    int& failures = thinRounds[static_cast<std::size_t>(v)];
+    const double step = std::ldexp(kOverstep * missing / std::max(std::abs(gain), kLeastGain),
+                                   std::min(failures++, kMostDoublings));
     if (gain > 0.0) {
       bounds.lower[v] = std::max(bounds.lower[v], result.innerOffsets[v] + step);
     } else {
@@ -125,9 +131,7 @@ bool fillNarrowParts(const CavityTask& task, const OffsetSurfaces& surfaces,
                      std::vector<char>& solid) {
   const Points& inner = surfaces.inner;
   if (faces.rows() == 0) return false;
-  const TriangleTree tree(inner, faces,
-                          faces.rows() == task.faces.rows() ? TriangleTree::Order::Spatial
-                                                            : TriangleTree::Order::Any);
+  const TriangleTree tree(inner, faces);
   constexpr Eigen::Index kChunk = 1024;
   std::atomic<bool> any = false;
   forChunks(inner.rows(), kChunk, [&](const Chunk& chunk) {
@@ -159,49 +163,6 @@ void keepOrdered(OffsetBounds& bounds) {
 /// Existing cavities would be filled without a new one.
 bool mayMoveOuterAlone(const CavityTask& task) {
   return task.outer.has_value() && task.inputMoments == task.solidMoments;
-}
-
-Vector rowsAt(const Vector& values, const std::vector<int>& rows) {
-  Vector result(static_cast<Eigen::Index>(rows.size()));
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    result[static_cast<Eigen::Index>(i)] = values[rows[i]];
-  }
-  return result;
-}
-
-/// The proxy's vertices are some of the surface's, with the same directions and bounds.
-OptimizeResult optimizeOnProxy(const CavityTask& task, const OffsetModel& fine, const Goal& goal,
-                               const std::vector<char>& solid, const Vector& start,
-                               const OptimizeOptions& options) {
-  const Proxy& proxy = *task.proxy;
-  Points directions(proxy.mesh.vertices.rows(), 3);
-  std::vector<char> solidAtProxy(proxy.vertexOf.size());
-  for (std::size_t i = 0; i < proxy.vertexOf.size(); ++i) {
-    directions.row(static_cast<Eigen::Index>(i)) = fine.directions.row(proxy.vertexOf[i]);
-    solidAtProxy[i] = solid[static_cast<std::size_t>(proxy.vertexOf[i])];
-  }
-  const OffsetBounds bounds{rowsAt(fine.inner.lower, proxy.vertexOf),
-                            rowsAt(fine.inner.upper, proxy.vertexOf)};
-  OffsetModel coarse{
-      proxy.mesh.vertices, proxy.mesh.faces, directions, fine.basis, fine.L,
-      fine.mass,           bounds,           {},         {},         fine.fillDensity,
-      fine.solidMoments};
-  coarse.innerFaces =
-      cavitySurface(offsetSurfaces(coarse, start).inner, proxy.mesh.faces, std::move(solidAtProxy))
-          .faces;
-  return minimizeCoarseToFine(fine, coarse, goal, task.weights, start, options);
-}
-
-OptimizeResult optimizeOffsets(const CavityTask& task, const OffsetModel& model, const Goal& goal,
-                               const std::vector<char>& solid, const Vector& start,
-                               const OptimizeOptions& options) {
-  /// Below it the whole surface is evaluated quickly enough.
-  constexpr Eigen::Index kWorthAProxy = 12000;
-  const bool onProxy = task.proxy != nullptr && task.vertices.rows() >= kWorthAProxy &&
-                       !model.outer && !model.isOpen && task.weights.smoothness == 0.0;
-  if (onProxy) return optimizeOnProxy(task, model, goal, solid, start, options);
-  return minimize([&](const Vector& x) { return evaluate(model, goal, task.weights, x); }, start,
-                  options);
 }
 
 /// Coefficients whose surface comes near to the limit's cavity.
@@ -240,6 +201,19 @@ bool closesOpening(const CavityTask& task, const std::vector<char>& solid) {
                      [&](int v) { return solid[static_cast<std::size_t>(v)] != 0; });
 }
 
+Inspection inspectResult(const CavityTask& task, const CavityResult& result, bool onlyFolds) {
+  const Faces& cavity = result.cavity.faces;
+  if (task.open != nullptr) return inspectShell(result.inner, cavity, task.surface, task.wall);
+  const auto inspectFrom = [&](const TriangleTree& outer) {
+    Inspection inspection =
+        inspect(result.inner, cavity, outer, task.wall, task.outer.has_value(), onlyFolds);
+    if (inspection.isClean()) measureWall(result.inner, cavity, outer, task.wall, inspection);
+    return inspection;
+  };
+  if (!task.outer) return inspectFrom(task.surface);
+  return inspectFrom({result.outer, task.surface.faces(), TriangleTree::Order::Spatial});
+}
+
 /// `freedom`: how much of the range between least and greatest offset may be used, 0…1; at 0 there
 /// is nothing to optimise, and the cavity is as large as the wall allows.
 CavityResult searchWithin(const CavityTask& task, double freedom,
@@ -263,9 +237,11 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
       task.outer ? Vector(task.outer->lower + kOuterStart * (task.outer->upper - task.outer->lower))
                  : Vector();
   Vector coefficients = coefficientsFor(model, middle, outerStart);
+  std::vector<int> thinRounds(static_cast<std::size_t>(task.vertices.rows()), 0);
 
   OptimizeOptions solver;
   CavityResult result;
+  result.outer = task.surface.vertices();
   struct Attempt {
     OptimizeResult best;
     std::vector<char> solid;
@@ -300,10 +276,10 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
     }
     model.innerFaces = result.cavity.faces;
     if (freedom > 0.0) {
-      OptimizeResult best = optimizeOffsets(task, model, *goal, solid, coefficients, solver);
+      const auto problem = [&](const Vector& x) { return evaluate(model, *goal, task.weights, x); };
+      OptimizeResult best = minimize(problem, coefficients, solver);
       if (round == 0 && isFarFromLimit(task, best)) {
-        OptimizeResult other = optimizeOffsets(task, model, *goal, solid,
-                                               towardsLimit(task, model, outerStart), solver);
+        OptimizeResult other = minimize(problem, towardsLimit(task, model, outerStart), solver);
         result.evaluations += other.evaluations;
         if (isBetter(other, best)) std::swap(best, other);
       }
@@ -337,14 +313,10 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
 
     const Stopwatch inspection;
     result.inner = cavityPositions(task, task.deliverable(surfaces.inner));
-    result.outer = task.outer ? task.deliverable(surfaces.outer) : task.vertices;
+    if (task.outer) result.outer = task.deliverable(surfaces.outer);
     result.innerOffsets = std::move(surfaces.innerOffsets);
     result.outerOffsets = std::move(surfaces.outerOffsets);
-    result.inspection =
-        task.open != nullptr
-            ? inspectShell(result.inner, result.cavity.faces, task.open->skin, task.wall)
-            : inspect(result.inner, result.cavity.faces, result.outer, task.faces, task.wall,
-                      task.outer.has_value(), onlyFolds);
+    result.inspection = inspectResult(task, result, onlyFolds);
     onlyFolds = result.inspection.thin.empty() && !result.inspection.crossing.empty();
     result.secondsInspection += inspection.seconds();
     if (progress) progress(1.0 - 1.0 / (2.0 + round));
@@ -355,7 +327,7 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
       if (cavity || mayMoveOuterAlone(task)) result.status = CavityStatus::Found;
       return result;
     }
-    tighten(task, result, neighbours, bounds, solid, round < kPatience);
+    tighten(task, result, neighbours, bounds, solid, thinRounds, round < kPatience);
     if (model.outer) calmOuter(task, result, neighbours, round < kPatience, *model.outer);
   }
   result.stopReason = "no cavity passes inspection";

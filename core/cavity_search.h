@@ -18,7 +18,10 @@
 namespace massprops {
 
 struct CavityTask {
-  const Points& vertices; ///< working frame
+  /// Working frame, the outer surface while it rests, whose openings, if any, have no lids here.
+  const TriangleTree& surface;
+  /// What moves inwards: that surface with its lids, or a coarse copy of it.
+  const Points& vertices;
   const Faces& faces;
   const OffsetField& field;
   const HarmonicBasis& basis; ///< on the proxy, when there is one
@@ -31,6 +34,7 @@ struct CavityTask {
   double fillDensity = 0.0;               ///< as a multiple of the material's density
   double wall = 0.0;                      ///< working length
   OffsetBounds inner = {};
+  /// Empty: the outer surface rests. Otherwise it is what moves inwards, too, no copy.
   std::optional<OffsetBounds> outer = {};
   std::optional<Limit> limit = {}; ///< empty: not known
   /// Empty, or what `goal` becomes when the outer surface has moved to these positions.
@@ -39,8 +43,7 @@ struct CavityTask {
   std::function<Points(const Points&)> deliverable = {};
   /// Null: the basis lives on the vertices themselves.
   const Proxy* proxy = nullptr;
-  /// Null: the surface is closed. Otherwise the outer surface rests, and `faces` have lids on its
-  /// openings.
+  /// Null: the surface is closed. Otherwise the outer surface rests, and is what moves inwards.
   const OpenSurface* open = nullptr;
 };
 
@@ -52,8 +55,10 @@ enum class CavityStatus {
 
 struct CavityResult {
   CavityStatus status = CavityStatus::NoRoom;
-  /// Delivered positions in the working frame, n×3 each; of an open surface's cavity 2n×3.
-  Points inner, outer;
+  /// Delivered positions in the working frame, a row a vertex of what moves; of an open surface's
+  /// cavity twice as many.
+  Points inner;
+  Points outer;         ///< of the outer surface, moved or not
   CavitySurface cavity; ///< over `inner`; no faces: nothing can be hollowed
   Vector innerOffsets, outerOffsets;
   Inspection inspection;

@@ -79,7 +79,7 @@ std::vector<int> nestingDepths(const Points& vertices, const Components& compone
     }
     const TriangleTree tree(vertices, outward);
     for (const std::size_t other : candidates) {
-      if (isInside(vertices, components[other], vertices, outward, tree)) ++depths[other];
+      if (isInside(vertices, components[other], tree)) ++depths[other];
     }
   }
   return depths;

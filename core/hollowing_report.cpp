@@ -30,7 +30,7 @@ Body inputBody(const CavityTask& task) {
 
 Body hollowBody(const CavityTask& task, const CavityResult& cavity) {
   const Moments inner = moments(cavity.inner, cavity.cavity.faces);
-  const Moments outer = moments(cavity.outer, task.faces);
+  const Moments outer = task.outer ? moments(cavity.outer, task.faces) : task.solidMoments;
   Body body;
   body.mass = shellMoments(outer, inner, 1.0, task.fillDensity);
   body.volume = outer[0] - inner[0];
@@ -115,10 +115,10 @@ std::string message(const CavityTask& task, const Goal& goalAfter, const CavityR
                    "." + outlook(task);
 }
 
-/// Vertices of the surface, lids apart, that have no cavity behind them.
-int solidVertices(const Workpiece& piece, const CavityResult& cavity) {
-  const Faces& skin = piece.open ? piece.open->skin : piece.faces;
-  std::vector<char> mark(static_cast<std::size_t>(piece.vertices.rows()), 0);
+/// Vertices of what moves inwards, lids apart, that have no cavity behind them.
+int solidVertices(const CavityTask& task, const CavityResult& cavity) {
+  const Faces& skin = task.open != nullptr ? task.open->skin : task.faces;
+  std::vector<char> mark(static_cast<std::size_t>(task.vertices.rows()), 0);
   for (Eigen::Index f = 0; f < skin.rows(); ++f) {
     for (const int v : skin.row(f)) {
       const auto i = static_cast<std::size_t>(v);
@@ -187,10 +187,12 @@ Report hollowingReport(const Workpiece& piece, const CavityTask& task, const Goa
   report.add("repairs", stages.repairs);
   report.add("skeleton_failures", stages.skeletonFailures);
   if (piece.open) report.add("openings", piece.open->openings);
-  report.add("solid_vertices", solidVertices(piece, cavity));
+  report.add("solid_vertices", solidVertices(task, cavity));
   report.add("stop_reason", cavity.stopReason);
   report.add("rounds", cavity.rounds);
   report.add("evaluations", cavity.evaluations);
+  report.add("seconds_check", stages.secondsCheck);
+  report.add("seconds_copy", stages.secondsCopy);
   report.add("seconds_skeleton", stages.secondsSkeleton);
   report.add("seconds_basis", stages.secondsBasis);
   report.add("seconds_limit", stages.secondsLimit);

@@ -11,9 +11,11 @@ namespace massprops {
 
 /// What happened before and beside the search.
 struct Stages {
-  std::string repairs;      ///< of the input, in words
-  int skeletonFailures = 0; ///< components on which the mean curvature flow failed
-  double largestWall = 0.0; ///< working length; of use when there is no room for a cavity
+  std::string repairs;       ///< of the input, in words
+  int skeletonFailures = 0;  ///< components on which the mean curvature flow failed
+  double largestWall = 0.0;  ///< working length; of use when there is no room for a cavity
+  double secondsCheck = 0.0; ///< of the input, and making it ready
+  double secondsCopy = 0.0;
   double secondsSkeleton = 0.0;
   double secondsBasis = 0.0;
   double secondsLimit = 0.0;

@@ -13,6 +13,10 @@ namespace massprops {
 namespace {
 
 constexpr double kWallTolerance = 0.005;
+/// Where the cavity lies along the wanted wall, telling whether it is just above or just below is
+/// the most expensive of all; within the tolerance it does not matter.
+constexpr double kHorizon = 0.998;
+static_assert(kHorizon > 1.0 - kWallTolerance);
 
 /// The vertices of these faces, ascending.
 std::vector<int> verticesOf(const Faces& faces,
@@ -30,11 +34,11 @@ std::vector<int> verticesOf(const Faces& faces,
 
 } // namespace
 
-Inspection inspect(const Points& inner, const Faces& innerFaces, const Points& outer,
-                   const Faces& outerFaces, double wall, bool outerMoved, bool foldsFirst) {
+Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleTree& outer,
+                   double wall, bool outerMoved, bool foldsFirst) {
   Inspection inspection;
   // Caps and gaps disturb the order.
-  const TriangleTree::Order innerOrder = innerFaces.rows() == outerFaces.rows()
+  const TriangleTree::Order innerOrder = innerFaces.rows() == outer.faces().rows()
                                              ? TriangleTree::Order::Spatial
                                              : TriangleTree::Order::Any;
   const std::vector<int> folded = selfIntersectingFaces(inner, innerFaces, innerOrder);
@@ -42,13 +46,12 @@ Inspection inspect(const Points& inner, const Faces& innerFaces, const Points& o
   inspection.crossing = verticesOf(innerFaces, {&folded, &flat});
   if (foldsFirst && !inspection.crossing.empty()) return inspection;
 
-  const TriangleTree outerTree(outer, outerFaces, TriangleTree::Order::Spatial);
-  Clearance clearance = clearanceOf(inner, innerFaces, outerTree, wall);
+  Clearance clearance = clearanceOf(inner, innerFaces, outer, kHorizon * wall, false);
   inspection.crossing = verticesOf(innerFaces, {&clearance.crossing, &folded, &flat});
   if (outerMoved) {
     const std::vector<int> outerFolds =
-        selfIntersectingFaces(outer, outerFaces, TriangleTree::Order::Spatial);
-    inspection.outerCrossing = verticesOf(outerFaces, {&outerFolds});
+        selfIntersectingFaces(outer.vertices(), outer.faces(), TriangleTree::Order::Spatial);
+    inspection.outerCrossing = verticesOf(outer.faces(), {&outerFolds});
   }
 
   const Components components = connectedComponents(inner.rows(), innerFaces);
@@ -56,7 +59,7 @@ Inspection inspect(const Points& inner, const Faces& innerFaces, const Points& o
   const std::vector<int> depths = nestingDepths(inner, components);
   for (std::size_t c = 0; c < components.size(); ++c) {
     // What crosses the outer surface is told above; else all of a component is inside, or nothing.
-    const bool inside = isInside(inner, components[c], outer, outerFaces, outerTree);
+    const bool inside = isInside(inner, components[c], outer);
     const bool outward =
         moments(inner.rowwise() - inner.row(components[c](0, 0)), components[c])[0] > 0.0;
     if (inside && outward && depths[c] == 0) continue;
@@ -78,11 +81,18 @@ Inspection inspect(const Points& inner, const Faces& innerFaces, const Points& o
   return inspection;
 }
 
-Inspection inspectShell(const Points& positions, const Faces& cavity, const Faces& skin,
+void measureWall(const Points& inner, const Faces& innerFaces, const TriangleTree& outer,
+                 double wall, Inspection& inspection) {
+  Clearance clearance = clearanceOf(inner, innerFaces, outer, wall);
+  inspection.wall = std::move(clearance.distance);
+  inspection.leastWall = clearance.least;
+}
+
+Inspection inspectShell(const Points& positions, const Faces& cavity, const TriangleTree& skin,
                         double wall) {
   const Eigen::Index n = positions.rows() / 2;
   Inspection inspection;
-  const Faces shell = shellOf(skin, cavity, n);
+  const Faces shell = shellOf(skin.faces(), cavity, n);
   const std::vector<int> folded = selfIntersectingFaces(positions, shell);
   const std::vector<int> flat = facesWithoutArea(positions, shell);
   std::vector<int> bad = verticesOf(shell, {&folded, &flat});
@@ -102,9 +112,7 @@ Inspection inspectShell(const Points& positions, const Faces& cavity, const Face
   inspection.crossing.erase(std::unique(inspection.crossing.begin(), inspection.crossing.end()),
                             inspection.crossing.end());
 
-  const Points outer = positions.bottomRows(n);
-  Clearance clearance =
-      clearanceOf(positions, withoutStrips(cavity, n), TriangleTree(outer, skin), wall);
+  Clearance clearance = clearanceOf(positions, withoutStrips(cavity, n), skin, wall);
   inspection.wall = std::move(clearance.distance);
   inspection.wall.tail(n).setZero();
   inspection.leastWall = clearance.least;

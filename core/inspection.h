@@ -1,6 +1,7 @@
 // What is wrong with a cavity, vertex by vertex, measured on the triangles to be delivered.
 #pragma once
 
+#include "core/triangle_tree.h"
 #include "core/types.h"
 
 #include <vector>
@@ -8,9 +9,10 @@
 namespace massprops {
 
 struct Inspection {
-  /// Distance from the outer surface, see `Clearance`; n entries.
+  /// Distance from the outer surface, see `Clearance`, exact below 0.998 of the wanted wall; n
+  /// entries.
   Vector wall;
-  double leastWall = 0.0; ///< infinity when there is no cavity
+  double leastWall = 0.0; ///< likewise; infinity when there is no cavity
   /// Vertices of faces that cross another face, or of a component that is not inside of the outer
   /// surface, is turned inside out or lies in another component; ascending.
   std::vector<int> crossing;
@@ -27,19 +29,23 @@ struct Inspection {
 
 /// Exact predicates for crossings and containment, double precision for distances: surfaces that
 /// are a wall apart do not cross.
-/// `inner`, `outer`: vertex positions (inner ones outward oriented as a body of its own), the outer
-/// faces in the order of `spatialOrder`. `wall`: wanted distance, same unit. `outerMoved`: whether
-/// the outer surface may cross itself. `foldsFirst`: where the cavity crosses itself, tell that
-/// alone and measure nothing.
-Inspection inspect(const Points& inner, const Faces& innerFaces, const Points& outer,
-                   const Faces& outerFaces, double wall, bool outerMoved, bool foldsFirst = false);
+/// `inner`, `innerFaces`: the cavity, outward oriented as a body of its own. `wall`: wanted
+/// distance, same unit. `outerMoved`: whether the outer surface may cross itself. `foldsFirst`:
+/// where the cavity crosses itself, tell that alone and measure nothing.
+Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleTree& outer,
+                   double wall, bool outerMoved, bool foldsFirst = false);
 
-/// The same for the shell of an open surface (open_surface.h): skin, offset surface and strips
-/// together are free of crossings and bound the material, and the offset surface, strips apart,
-/// keeps the wall from the skin. `positions`: 2n×3; `wall`, `nearestFace` have 2n entries, the
-/// latter faces of the skin, the wall being 0 on the skin itself; `crossing` and `thin` are
-/// vertices below n.
-Inspection inspectShell(const Points& positions, const Faces& cavity, const Faces& skin,
+/// Makes `wall` and `leastWall` exact up to the wanted wall, and the latter beyond. The cavity is
+/// that of the inspection.
+void measureWall(const Points& inner, const Faces& innerFaces, const TriangleTree& outer,
+                 double wall, Inspection& inspection);
+
+/// An inspection of the shell of an open surface (open_surface.h), its wall exact: skin, offset
+/// surface and strips together are free of crossings and bound the material, and the offset
+/// surface, strips apart, keeps the wall from the skin. `positions`: 2n×3, the last n those of the
+/// skin; `wall`, `nearestFace` have 2n entries, the latter faces of the skin, the wall being 0 on
+/// the skin itself; `crossing` and `thin` are vertices below n.
+Inspection inspectShell(const Points& positions, const Faces& cavity, const TriangleTree& skin,
                         double wall);
 
 } // namespace massprops

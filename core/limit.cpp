@@ -22,7 +22,7 @@ Moments cubeMoments(const Vec3& p, double edge, double volume) {
   return volume * m;
 }
 
-constexpr int kUnknown = -1;
+constexpr int kNone = -1;
 constexpr double kFeasibility = 1e-6;
 /// Of the largest: functions that hardly vary over the region are left out.
 constexpr double kLeastSquare = 1e-10;
@@ -31,28 +31,20 @@ constexpr double kLeastSquare = 1e-10;
 /// parts of border cells; 1 are the cells.
 class RegionSampler {
 public:
-  RegionSampler(const Points& vertices, const Faces& faces, double wall, double edge)
-      : surface_(vertices, faces), wall_(wall), edge_(edge) {}
+  RegionSampler(const TriangleTree& surface, double wall, double edge)
+      : surface_(surface), wall_(wall), edge_(edge) {}
 
-  void add(const Vec3& centre) { visit(centre, kTop, kUnknown, kUnknown, -1); }
+  void add(const Vec3& centre) { visit(centre, kTop, kNone, Side::Unknown, kNone); }
 
   static constexpr int kTop = 4;
   double topEdge() const { return edge_ * (1 << (kTop - 1)); }
 
-  AdmissibleCells cells(const TriangleMesh& sides) const {
-    Points samples(static_cast<Eigen::Index>(samples_.size()), 3);
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
-      samples.row(static_cast<Eigen::Index>(i)) = samples_[i].transpose();
-    }
-    const std::vector<bool> inside = insideOf(samples, sides.vertices, sides.faces);
-
+  AdmissibleCells cells() const {
     std::vector<Moments> result;
-    int cell = kUnknown;
+    int cell = kNone;
     for (const Part& part : parts_) {
-      const bool isInside = inside[static_cast<std::size_t>(part.sample)];
       const double edge = edge_ * std::ldexp(1.0, part.level - 1);
       if (part.level > 0) {
-        if (!isInside) continue;
         const int n = 1 << (part.level - 1);
         const Vec3 first = part.centre - Vec3::Constant(0.5 * (edge - edge_));
         for (int j = 0; j < n * n * n; ++j) {
@@ -64,14 +56,12 @@ public:
         continue;
       }
       // The part of the cube behind the plane that is a wall away from the surface.
-      const double depth = isInside ? part.distance : -part.distance;
-      const Vec3 inwards = isInside ? part.away : Vec3(-part.away);
-      const double width = edge * inwards.cwiseAbs().sum();
-      const double share = std::clamp(0.5 + (depth - wall_) / width, 0.0, 1.0);
+      const double width = edge * part.inwards.cwiseAbs().sum();
+      const double share = std::clamp(0.5 + (part.depth - wall_) / width, 0.0, 1.0);
       if (share == 0.0) continue;
       if (part.cell != cell) result.emplace_back(Moments::Zero());
       cell = part.cell;
-      result.back() += cubeMoments(part.centre + 0.5 * width * (1.0 - share) * inwards, edge,
+      result.back() += cubeMoments(part.centre + 0.5 * width * (1.0 - share) * part.inwards, edge,
                                    share * edge * edge * edge);
     }
     AdmissibleCells rows(static_cast<Eigen::Index>(result.size()), 10);
@@ -82,44 +72,44 @@ public:
   }
 
 private:
+  enum class Side { Unknown, Inside, Outside };
   struct Part {
     Vec3 centre;
-    double distance; ///< to the surface; `sample` tells the side
-    Vec3 away;       ///< unit, from the nearest point of the surface
-    int level;  ///< 0: part of a border cell; else a cube of cells that are all beyond the wall
-    int cell;   ///< number of the border cell
-    int sample; ///< the point that is on the same side of the surface
+    double depth; ///< behind the surface, negative outside
+    Vec3 inwards; ///< unit, where the depth grows
+    int level;    ///< 0: part of a border cell; else a cube of cells that are all beyond the wall
+    int cell;     ///< number of the border cell
   };
 
-  void visit(const Vec3& centre, int level, int cell, int sample, int hintFace) {
+  void visit(const Vec3& centre, int level, int cell, Side side, int hintFace) {
     const TriangleTree::Hit nearest =
         surface_.nearest(centre, std::numeric_limits<double>::infinity(), hintFace);
     const double distance = std::sqrt(nearest.squaredDistance);
     const double size = edge_ * std::ldexp(1.0, level - 1);
     const double half = 0.5 * std::sqrt(3.0) * size;
     if (distance <= wall_ - half) return;
-    if (sample == kUnknown && (distance > half || level == 0)) {
-      sample = static_cast<int>(samples_.size());
-      samples_.push_back(centre);
+    if (side == Side::Unknown && (distance >= half || level == 0)) {
+      side = isInside(centre, nearest, surface_) ? Side::Inside : Side::Outside;
     }
+    const double sign = side == Side::Inside ? 1.0 : -1.0;
+    if (level > 0 && side == Side::Outside) return;
     if (level == 0 || distance >= wall_ + half) {
       const Vec3 away = (centre - nearest.point) / std::max(distance, 1e-300);
-      parts_.push_back({centre, distance, away, level, cell, sample});
+      parts_.push_back({centre, sign * distance, sign * away, level, cell});
       return;
     }
     if (level == 1) cell = borderCells_++;
     for (int corner = 0; corner < 8; ++corner) {
       const Vec3 step((corner & 1) != 0 ? 0.25 : -0.25, (corner & 2) != 0 ? 0.25 : -0.25,
                       (corner & 4) != 0 ? 0.25 : -0.25);
-      visit(centre + size * step, level - 1, cell, sample, nearest.face);
+      visit(centre + size * step, level - 1, cell, side, nearest.face);
     }
   }
 
-  TriangleTree surface_;
+  const TriangleTree& surface_;
   double wall_;
   double edge_;
   std::vector<Part> parts_;
-  std::vector<Vec3> samples_;
   int borderCells_ = 0;
 };
 
@@ -182,16 +172,15 @@ std::optional<Moments> bestVerdict(const Goal& goal, const Moments& solid, doubl
 
 } // namespace
 
-AdmissibleCells admissibleCells(const Points& vertices, const Faces& faces,
-                                const TriangleMesh& sides, double wall, int cells) {
-  const Vec3 low = vertices.colwise().minCoeff();
-  const Vec3 high = vertices.colwise().maxCoeff();
+AdmissibleCells admissibleCells(const TriangleTree& surface, double wall, int cells) {
+  const Vec3 low = surface.vertices().colwise().minCoeff();
+  const Vec3 high = surface.vertices().colwise().maxCoeff();
   const Vec3 extent = high - low;
   if (2.0 * wall >= extent.minCoeff()) return {};
   // Sheets of almost no thickness would need cells without number.
   constexpr double kMostAlongASide = 400.0;
   RegionSampler sampler(
-      vertices, faces, wall,
+      surface, wall,
       std::max(std::cbrt(extent.prod() / cells), extent.maxCoeff() / kMostAlongASide));
   const double step = sampler.topEdge();
   const Eigen::Array3i counts = ((high - low) / step).array().ceil().max(1.0).cast<int>();
@@ -202,7 +191,7 @@ AdmissibleCells admissibleCells(const Points& vertices, const Faces& faces,
       }
     }
   }
-  return sampler.cells(sides);
+  return sampler.cells();
 }
 
 Limit limitOf(const Goal& goal, const Weights& weights, const Moments& solid, double fillDensity,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/goals.h"
+#include "core/triangle_tree.h"
 
 #include <optional>
 
@@ -15,9 +16,8 @@ using AdmissibleCells = Eigen::Matrix<double, Eigen::Dynamic, 10, Eigen::RowMajo
 /// Cubes, about `cells` of them in the model's bounding box. Those at the border of the region are
 /// divided once more, and the border is taken as a plane in each part: the region comes out too
 /// large at its edges, if anything, never too small.
-/// `sides`: a surface that tells inside from outside; the same one, or a coarse copy.
-AdmissibleCells admissibleCells(const Points& vertices, const Faces& faces,
-                                const TriangleMesh& sides, double wall, int cells = 20000);
+/// \pre the surface is closed and outward
+AdmissibleCells admissibleCells(const TriangleTree& surface, double wall, int cells = 20000);
 
 /// A body hollowed where a quadric is positive, the shape of the best cavity for every goal that
 /// depends on mass moments alone: a plane's side for those without inertia. [HLW24, Sec. 4; docs/

@@ -19,13 +19,18 @@ namespace {
 constexpr double kShareOfChord = 0.5;
 constexpr double kReachSlope = 1.0;
 
+Vec3 areaNormal(const Points& vertices, const Faces& faces, int f) {
+  const Vec3 a = vertices.row(faces(f, 0)).transpose();
+  const Vec3 b = vertices.row(faces(f, 1)).transpose();
+  const Vec3 c = vertices.row(faces(f, 2)).transpose();
+  return (b - a).cross(c - a);
+}
+
 Points unitFaceNormals(const Points& vertices, const Faces& faces) {
   Points normals(faces.rows(), 3);
   for (Eigen::Index f = 0; f < faces.rows(); ++f) {
-    const Vec3 a = vertices.row(faces(f, 0)).transpose();
-    const Vec3 b = vertices.row(faces(f, 1)).transpose();
-    const Vec3 c = vertices.row(faces(f, 2)).transpose();
-    normals.row(f) = (b - a).cross(c - a).stableNormalized().transpose();
+    normals.row(f) =
+        areaNormal(vertices, faces, static_cast<int>(f)).stableNormalized().transpose();
   }
   return normals;
 }
@@ -101,6 +106,7 @@ OffsetField offsetField(const Points& vertices, const Faces& faces, const Points
   field.directions.resize(vertices.rows(), 3);
   field.reach.resize(vertices.rows());
   field.clearance.resize(vertices.rows());
+  field.meanClearance.resize(vertices.rows());
   constexpr Eigen::Index kChunk = 2048;
   forChunks(vertices.rows(), kChunk, [&](const Chunk& chunk) {
     FaceFan fan;
@@ -120,6 +126,9 @@ OffsetField offsetField(const Points& vertices, const Faces& faces, const Points
       field.directions.row(v) = direction.transpose();
       field.reach[v] = outward.norm();
       field.clearance[v] = clearance;
+      Vec3 mean = Vec3::Zero();
+      for (const int f : fan) mean += areaNormal(vertices, faces, f);
+      field.meanClearance[v] = std::max(clearance, mean.stableNormalized().dot(direction));
     }
   });
   const Vector through = chords(TriangleTree(vertices, faces), vertices, -field.directions);

@@ -15,6 +15,9 @@ struct OffsetField {
   /// n entries in (−1, 1]: least n_f·d_i over the faces f at vertex i. Not positive: no direction
   /// moves all faces at that vertex inwards.
   Vector clearance;
+  /// n entries, not below the former: n·d_i with the unit mean normal n at vertex i, weighted by
+  /// area.
+  Vector meanClearance;
 };
 
 /// Makes the raw skeleton correspondence fit for offsetting (docs/math.md "Offset directions"):

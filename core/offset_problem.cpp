@@ -49,6 +49,16 @@ CavityMoments momentsOf(const OffsetModel& model, const OffsetSurfaces& surfaces
                    surfaces.innerSlopes, -1.0, usesInertia)};
 }
 
+/// Terms 1–3 and 5, while the outer surface stays.
+Evaluation evaluateMoments(const OffsetModel& model, const Goal& goal, const Weights& weights,
+                           const CavityMoments& cavity) {
+  const double solidVolume = model.solidMoments[0];
+  return evaluateBody(
+      goal, weights, shellMoments(model.solidMoments, cavity.value, 1.0, model.fillDensity),
+      (model.fillDensity - 1.0) * cavity.jacobian, (solidVolume - cavity.value[0]) / solidVolume,
+      -cavity.jacobian.row(0).transpose() / solidVolume);
+}
+
 } // namespace
 
 OffsetSurfaces offsetSurfaces(const OffsetModel& model, const Vector& coefficients) {
@@ -70,15 +80,6 @@ OffsetSurfaces offsetSurfaces(const OffsetModel& model, const Vector& coefficien
 CavityMoments cavityMoments(const OffsetModel& model, const Vector& coefficients,
                             bool usesInertia) {
   return momentsOf(model, offsetSurfaces(model, coefficients), usesInertia);
-}
-
-Evaluation evaluateMoments(const OffsetModel& model, const Goal& goal, const Weights& weights,
-                           const CavityMoments& cavity) {
-  const double solidVolume = model.solidMoments[0];
-  return evaluateBody(
-      goal, weights, shellMoments(model.solidMoments, cavity.value, 1.0, model.fillDensity),
-      (model.fillDensity - 1.0) * cavity.jacobian, (solidVolume - cavity.value[0]) / solidVolume,
-      -cavity.jacobian.row(0).transpose() / solidVolume);
 }
 
 Evaluation evaluate(const OffsetModel& model, const Goal& goal, const Weights& weights,

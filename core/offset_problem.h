@@ -48,11 +48,6 @@ struct CavityMoments {
 /// `usesInertia`: if not, the derivatives of the second moments are 0.
 CavityMoments cavityMoments(const OffsetModel& model, const Vector& coefficients, bool usesInertia);
 
-/// Objective and constraints of the cavity with these moments, terms 1–3 and 5 only.
-/// \pre the outer surface stays
-Evaluation evaluateMoments(const OffsetModel& model, const Goal& goal, const Weights& weights,
-                           const CavityMoments& cavity);
-
 /// Objective terms 1–6 and the goal's constraints at `coefficients`; docs/math.md "Objective".
 Evaluation evaluate(const OffsetModel& model, const Goal& goal, const Weights& weights,
                     const Vector& coefficients);

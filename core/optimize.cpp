@@ -197,13 +197,6 @@ std::string describe(nlopt::result result) {
 
 } // namespace
 
-OptimizeResult restoreFeasibility(const Problem& problem, const Vector& start,
-                                  const OptimizeOptions& options) {
-  ScaledProblem scaled(problem, start, options);
-  restoreFeasibility(scaled, options);
-  return scaled.best();
-}
-
 OptimizeResult minimize(const Problem& problem, const Vector& start,
                         const OptimizeOptions& options) {
   ScaledProblem scaled(problem, start, options);

@@ -52,9 +52,4 @@ struct OptimizeResult {
 OptimizeResult minimize(const Problem& problem, const Vector& start,
                         const OptimizeOptions& options = {});
 
-/// The damped Gauss–Newton steps alone: from `start` to the nearest point where the constraints
-/// hold.
-OptimizeResult restoreFeasibility(const Problem& problem, const Vector& start,
-                                  const OptimizeOptions& options = {});
-
 } // namespace massprops

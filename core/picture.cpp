@@ -36,8 +36,8 @@ Vec2 widestDirection(const Points& vertices) {
 Picture pictureOf(const Workpiece& piece, const CavityTask& task, const Goal& goalAfter,
                   const CavityResult& cavity) {
   const Moments massAfter =
-      shellMoments(moments(cavity.outer, task.faces), moments(cavity.inner, cavity.cavity.faces),
-                   1.0, task.fillDensity);
+      shellMoments(task.outer ? moments(cavity.outer, task.faces) : task.solidMoments,
+                   moments(cavity.inner, cavity.cavity.faces), 1.0, task.fillDensity);
   const Vec3 before = massProperties(task.inputMoments).centerOfMass;
   const Vec3 after = massProperties(massAfter).centerOfMass;
 
@@ -47,10 +47,9 @@ Picture pictureOf(const Workpiece& piece, const CavityTask& task, const Goal& go
   Vec3 normal = Vec3(along.y(), -along.x(), 0.0).normalized();
   if (normal.x() < normal.y()) normal *= -1.0;
   Picture picture;
-  const Eigen::Index n = piece.vertices.rows();
-  const Submesh material =
-      submesh(stacked(cavity.inner.topRows(n), cavity.outer),
-              shellOf(piece.open ? piece.open->skin : task.faces, cavity.cavity.faces, n));
+  const Eigen::Index n = task.vertices.rows();
+  const Submesh material = submesh(stacked(cavity.inner.topRows(n), cavity.outer),
+                                   shellOf(task.surface.faces(), cavity.cavity.faces, n));
   const auto cavityVertices = std::count_if(material.vertexOf.begin(), material.vertexOf.end(),
                                             [&](int v) { return v < n; });
   picture.cutOpen = cutaway(material.mesh, cavityVertices, after, normal);

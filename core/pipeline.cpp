@@ -26,24 +26,42 @@ constexpr double kDiffusionLength = 0.02;
 /// Above this gap another search, with other directions, is worth its time.
 constexpr double kFarFromLimit = 0.075;
 
+/// What moves inwards is as fine as a cavity has to be: on finer ones, the objective does not
+/// improve by more than the one or two per cent that it scatters by. In working lengths.
+constexpr Coarseness kCage{12000, 3000, 1.5e-4};
+
 /// Vertices of the proxy. On models with thin limbs its skeleton costs some per cent of what
 /// hollowing gains, with a scatter that falls slowly with its size (benchmarks/results.md). The
 /// whole of a small model takes less than a second.
 Eigen::Index proxySize(Eigen::Index vertexCount) {
   constexpr Eigen::Index kSmall = 5000;
-  constexpr double kShare = 0.46;
+  constexpr double kShare = 0.33;
   constexpr double kMost = 5000.0;
   if (vertexCount <= kSmall) return vertexCount;
   return static_cast<Eigen::Index>(std::min(kShare * static_cast<double>(vertexCount), kMost));
 }
 
-/// Share of the time until skeleton and basis are known: theirs goes with the proxy, that of the
-/// rest with the surface. Seconds a vertex, of which only the ratio counts.
-double shareOfSkeleton(Eigen::Index vertexCount, Eigen::Index proxyCount) {
-  constexpr double kSkeleton = 8e-5;
-  constexpr double kRest = 3.5e-5;
-  const double skeleton = kSkeleton * static_cast<double>(proxyCount);
-  return skeleton / (skeleton + kRest * static_cast<double>(vertexCount));
+/// Per cent of the time at which stages begin. Seconds a vertex were measured on one machine; only
+/// their ratios count.
+struct Schedule {
+  int copy, skeleton, directions, search;
+  static constexpr int kEnd = 95;
+};
+
+Schedule scheduleFor(Eigen::Index vertexCount, bool isCopied) {
+  const auto n = static_cast<double>(vertexCount);
+  const double moving = isCopied ? std::min(n, 0.8 * static_cast<double>(kCage.most)) : n;
+  const double check = 1.7e-6 * n;
+  const double copy = isCopied ? 1e-6 * n : 0.0;
+  const double skeleton = 4e-5 * static_cast<double>(proxySize(vertexCount)) + 2e-7 * n;
+  const double directions = 5e-6 * moving;
+  const double search = 2.5e-5 * moving + 1e-6 * n;
+  const double total = check + copy + skeleton + directions + search;
+  const auto percent = [&](double seconds) {
+    return static_cast<int>(Schedule::kEnd * seconds / total);
+  };
+  return {percent(check), percent(check + copy), percent(check + copy + skeleton),
+          percent(check + copy + skeleton + directions)};
 }
 
 /// The outer surface keeps the point that the body hangs from.
@@ -92,33 +110,42 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   const Stopwatch total;
   Stages stages;
 
-  constexpr int kStart = 2;
-  constexpr int kEnd = 95;
   tell(0, "Checking the model");
   const Solid solid = makeSolid(model, options.openSurface);
   requireSensible(options, solid.vertices().rows(), solid.diagonal());
   const Workpiece piece = makeWorkpiece(solid, options);
   if (piece.open) requireSensibleForShell(options);
-  const Faces& skin = piece.open ? piece.open->skin : piece.faces;
+  const TriangleTree surface(piece.vertices, piece.open ? piece.open->skin : piece.faces,
+                             TriangleTree::Order::Spatial);
 
-  // Skeleton and basis are smooth: a coarse copy of the surface carries them. The basis does not
-  // need the skeleton: both cores work.
-  tell(kStart, "Mean curvature skeleton and harmonic basis");
-  const Proxy proxy =
-      makeProxy(piece.vertices, piece.faces,
-                options.fullResolution ? piece.vertices.rows() : proxySize(piece.vertices.rows()));
+  const bool needsAll = options.fullResolution || options.outerUpperBound > 0.0 || piece.open;
+  const Eigen::Index n = piece.vertices.rows();
+  const Schedule schedule = scheduleFor(n, !needsAll);
+  stages.secondsCheck = total.seconds();
+
+  // A coarse copy of the surface moves inwards, where the surface itself need not move as well.
+  tell(schedule.copy, "Coarse copies");
+  const Stopwatch copyTime;
+  const CoarseCopy cage =
+      coarseCopy(piece.vertices, piece.faces, needsAll ? Coarseness{n, n, 0.0} : kCage);
+  const bool isCopy = cage.mesh.vertices.rows() < n;
+  const Points& x = cage.mesh.vertices;
+  const Faces& faces = cage.mesh.faces;
+  // Skeleton and basis are smooth: a still coarser one carries them. The basis does not need the
+  // skeleton: both cores work.
+  const Proxy proxy = makeProxy(x, faces, options.fullResolution ? n : proxySize(n));
   const TriangleMesh& coarse = proxy.mesh;
-  const Vector area = vertexLumpedMass(piece.vertices, piece.faces);
+  stages.secondsCopy = copyTime.seconds();
+  const Vector area = vertexLumpedMass(x, faces);
   const Vector mass = area / area.sum();
   const SparseMatrix coarseL = cotanLaplacian(coarse.vertices, coarse.faces);
   const Vector coarseArea = proxy.interpolation.transposeTimes(area);
   const Moments solidMoments = moments(piece.vertices, piece.faces);
   const std::unique_ptr<Goal> goal = makeGoal(options, piece, piece.vertices);
-  const int afterSkeleton =
-      kStart + static_cast<int>((kEnd - kStart) *
-                                shareOfSkeleton(piece.vertices.rows(), coarse.vertices.rows()));
+  tell(schedule.skeleton, "Mean curvature skeleton and harmonic basis");
   const auto tellBeside = [&](double share) {
-    tell(kStart + static_cast<int>(share * (afterSkeleton - kStart)), "Mean curvature skeleton");
+    tell(schedule.skeleton + static_cast<int>(share * (schedule.directions - schedule.skeleton)),
+         "Mean curvature skeleton");
   };
   Skeleton skeleton;
   HarmonicBasis basis;
@@ -137,8 +164,7 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
         tellBeside(0.25);
         if (options.outerUpperBound > 0.0 || piece.open) return;
         const Stopwatch limitTime;
-        const AdmissibleCells cells =
-            admissibleCells(piece.vertices, piece.faces, coarse, piece.wall);
+        const AdmissibleCells cells = admissibleCells(surface, piece.wall);
         if (cells.rows() == 0) return;
         tellBeside(0.5);
         limit = limitOf(*goal, options.weights, solidMoments, fillingSeenBy(options), cells);
@@ -148,23 +174,20 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   stages.skeletonFailures = skeleton.failedComponents;
   stages.repairs = solid.repairs().describe();
 
-  tell(afterSkeleton, "Offset directions");
+  tell(schedule.directions, "Offset directions");
   const Points axis = smoothedOverSurface(skeleton.points, coarseL, coarseArea, kDiffusionLength);
   Points fineAxis = proxy.interpolation * axis;
-  if (piece.open) {
-    fineAxis = levelAtRim(piece.vertices, piece.faces, piece.isLid, *piece.open, fineAxis);
-  }
-  OffsetField field = offsetField(piece.vertices, skin, fineAxis);
+  if (piece.open) fineAxis = levelAtRim(x, faces, piece.isLid, *piece.open, fineAxis);
+  const Faces& skin = piece.open ? piece.open->skin : faces;
+  OffsetField field = offsetField(x, skin, fineAxis);
 
-  const int beforeSearch = afterSkeleton + (kEnd - afterSkeleton) / 8;
-  tell(beforeSearch, "Optimization");
+  tell(schedule.search, "Optimization");
   const auto representable = [&](const Points& points) {
     return options.representable ? options.representable(points) : points;
   };
-  const SparseMatrix L = options.weights.smoothness > 0.0
-                             ? cotanLaplacian(piece.vertices, piece.faces)
-                             : SparseMatrix();
-  CavityTask task{piece.vertices, piece.faces, field, basis, L, mass, *goal, options.weights};
+  const SparseMatrix L =
+      options.weights.smoothness > 0.0 ? cotanLaplacian(x, faces) : SparseMatrix();
+  CavityTask task{surface, x, faces, field, basis, L, mass, *goal, options.weights};
   if (!proxy.interpolation.isIdentity()) task.proxy = &proxy;
   if (piece.open) task.open = &*piece.open;
   task.solidMoments = solidMoments;
@@ -173,8 +196,8 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   task.wall = piece.wall;
   task.inputMoments = solidMoments + moments(piece.cavities.vertices, piece.cavities.faces);
   const auto boundsFor = [&](double wall) {
-    return keepingWall(piece.vertices, skin, field,
-                       innerBounds(field, wall, options.innerUpperBound), wall);
+    const auto bounds = isCopy ? innerBoundsOfCopy : innerBounds;
+    return keepingWall(x, surface, field, bounds(field, wall, options.innerUpperBound), wall);
   };
   task.inner = boundsFor(task.wall);
   if (options.outerUpperBound > 0.0) {
@@ -188,9 +211,10 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   task.deliverable = [&](const Points& working) {
     return toWorking(piece.frame, representable(toModel(piece.frame, working)));
   };
-  int percent = beforeSearch;
+  int percent = schedule.search;
   const auto tellSearch = [&](double share) {
-    percent = std::max(percent, beforeSearch + static_cast<int>((kEnd - beforeSearch) * share));
+    percent = std::max(percent, schedule.search +
+                                    static_cast<int>((Schedule::kEnd - schedule.search) * share));
     tell(percent, "Optimization");
   };
   const auto isUseless = [&](const CavityResult& found) {
@@ -206,7 +230,7 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   }
   // The limit knows nothing of smoothness.
   if (options.weights.smoothness == 0.0 && gapToLimit(task, cavity) > kFarFromLimit) {
-    field = offsetField(piece.vertices, skin, fineAxis, kSteepClearance);
+    field = offsetField(x, skin, fineAxis, kSteepClearance);
     task.inner = boundsFor(task.wall);
     CavityResult steep = searchCavity(task, tellSearch);
     const bool isSteepBetter = isBetter(task, steep, cavity);
@@ -216,27 +240,26 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   if (isUseless(cavity)) cavity.status = CavityStatus::NoGain;
   if (cavity.status == CavityStatus::NoRoom) stages.largestWall = largestWall(task, boundsFor);
 
-  tell(kEnd, "Report");
+  tell(Schedule::kEnd, "Report");
   Result result;
   if (cavity.status == CavityStatus::Found) {
-    const Eigen::Index n = piece.vertices.rows();
-    Points positions = representable(toModel(piece.frame, inSolidOrder(piece, cavity.inner)));
-    Faces faces = cavity.cavity.faces;
+    const std::vector<int> places = placesInSolid(piece, cage.vertexOf);
+    Points positions = representable(toModel(piece.frame, placed(cavity.inner, places)));
+    Faces cavityFaces = cavity.cavity.faces;
     if (piece.open) {
       // The strips end in the very points of the model.
       positions.bottomRows(n) = solid.vertices();
-      faces = withoutLids(faces, n);
+      cavityFaces = withoutLids(cavityFaces, n);
     }
-    Submesh inner = submesh(positions, inSolidOrder(piece, faces));
+    Submesh inner = submesh(positions, placed(cavityFaces, places));
     result.inner = std::move(inner.mesh);
     if (result.inner.faces.rows() > 0) {
       result.inner.faces.col(1).swap(result.inner.faces.col(2));
     }
-    result.innerWall =
-        inSolidOrder(piece, cavity.inspection.wall)(inner.vertexOf) * piece.frame.length;
+    result.innerWall = placed(cavity.inspection.wall, places)(inner.vertexOf) * piece.frame.length;
     if (task.outer || piece.cavities.faces.rows() > 0) {
       result.outer = TriangleMesh{
-          representable(toModel(piece.frame, inSolidOrder(piece, cavity.outer))), solid.faces()};
+          representable(toModel(piece.frame, placed(cavity.outer, piece.vertexOf))), solid.faces()};
     }
   }
   // A verdict may depend on the outer surface as it has become.

@@ -16,13 +16,13 @@ namespace massprops {
 namespace {
 
 /// A proxy that is not smaller by this factor does not pay.
-constexpr double kWorthwhile = 1.5;
+constexpr double kWorthwhile = 1.4;
 /// Weight of an edge's length against the distance from the surface, both squared: little, so that
 /// thin limbs keep more vertices than broad flanks.
 constexpr double kLengthWeight = 5e-4;
 /// A collapse must not turn a face by more than about 80°, nor make one flatter than this.
 constexpr double kLeastTurnCosine = 0.2;
-constexpr double kLeastQuality = 0.05;
+constexpr double kLeastQuality = 0.25;
 /// No component becomes smaller: its shape would be lost.
 constexpr int kLeastVertices = 64;
 constexpr Eigen::Index kChunk = 4096;
@@ -82,7 +82,9 @@ public:
     }
   }
 
-  void reduceTo(Eigen::Index size) {
+  /// No vertex goes that is farther than `distance` from the planes of its faces.
+  void reduceTo(Eigen::Index size, double distance = std::numeric_limits<double>::infinity()) {
+    mostSquared_ = distance * distance;
     // Sweeps with rising thresholds: the order of the vertices along a space-filling curve is kept,
     // which is quicker than a queue, and each sweep thins the surface out evenly.
     const double totalArea =
@@ -93,35 +95,41 @@ public:
     constexpr int kMostSweeps = 200;
     for (int sweep = 0; sweep < kMostSweeps && alive_ > size; ++sweep) {
       const bool near = alive_ < 3 * size;
+      const Eigen::Index before = alive_;
       for (std::size_t v = 0; v < outgoing_.size() && alive_ > size; ++v) {
         if (outgoing_[v] >= 0) tryToRemove(static_cast<int>(v), threshold);
       }
+      // Lengths do not matter any more, and the distances forbid the rest.
+      if (alive_ == before && threshold > totalArea * totalArea) break;
       threshold *= near ? 1.5 : 3.0;
     }
   }
 
-  Proxy result(Eigen::Index vertexCount) {
-    Proxy proxy{{}, {}, Interpolation::identity(0)};
+  Eigen::Index size() const { return alive_; }
+
+  CoarseCopy copy() const {
+    CoarseCopy result;
     std::vector<int> number(outgoing_.size(), -1);
     for (std::size_t v = 0; v < outgoing_.size(); ++v) {
       if (outgoing_[v] < 0) continue;
-      number[v] = static_cast<int>(proxy.vertexOf.size());
-      proxy.vertexOf.push_back(static_cast<int>(v));
+      number[v] = static_cast<int>(result.vertexOf.size());
+      result.vertexOf.push_back(static_cast<int>(v));
     }
-    proxy.mesh.vertices.resize(static_cast<Eigen::Index>(proxy.vertexOf.size()), 3);
-    for (std::size_t i = 0; i < proxy.vertexOf.size(); ++i) {
-      proxy.mesh.vertices.row(static_cast<Eigen::Index>(i)) = x_.row(proxy.vertexOf[i]);
+    result.mesh.vertices.resize(static_cast<Eigen::Index>(result.vertexOf.size()), 3);
+    for (std::size_t i = 0; i < result.vertexOf.size(); ++i) {
+      result.mesh.vertices.row(static_cast<Eigen::Index>(i)) = x_.row(result.vertexOf[i]);
     }
     std::vector<int> kept;
     for (std::size_t h = 0; h < corner_.size(); h += 3) {
       if (corner_[h] < 0) continue;
       for (std::size_t k = 0; k < 3; ++k) kept.push_back(number[at(corner_[h + k])]);
     }
-    proxy.mesh.faces =
+    result.mesh.faces =
         Eigen::Map<const Faces>(kept.data(), static_cast<Eigen::Index>(kept.size() / 3), 3);
-    proxy.interpolation = interpolation(proxy.mesh, number, vertexCount);
-    return proxy;
+    return result;
   }
+
+  Interpolation interpolationFrom(const CoarseCopy& copy);
 
 private:
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -147,7 +155,8 @@ private:
       const Vec3 target = point(to(h));
       const double cost =
           own.at(target) + kLengthWeight * own.area * (target - point(v)).squaredNorm();
-      if (cost <= threshold) candidates_.emplace_back(cost, h);
+      const bool isNear = own.at(target) <= mostSquared_ * own.area;
+      if (isNear && cost <= threshold) candidates_.emplace_back(cost, h);
     }
     std::sort(candidates_.begin(), candidates_.end());
     for (const auto& [cost, h] : candidates_) {
@@ -232,23 +241,26 @@ private:
     return v;
   }
 
-  Interpolation interpolation(const TriangleMesh& mesh, const std::vector<int>& number,
-                              Eigen::Index vertexCount);
-
   const Points& x_;
   std::vector<int> corner_, opposite_, outgoing_, parent_;
   std::vector<Quadric> quadrics_;
   std::vector<int> component_;
   std::vector<int> sizes_;
   Eigen::Index alive_ = 0;
+  double mostSquared_ = 0.0;
   std::vector<int> fan_, otherFan_;
   std::vector<std::pair<double, int>> candidates_;
 };
 
-Interpolation Collapsing::interpolation(const TriangleMesh& mesh, const std::vector<int>& number,
-                                        Eigen::Index vertexCount) {
-  // A vertex lies near the one that it was collapsed onto: from there over the proxy, always to
+Interpolation Collapsing::interpolationFrom(const CoarseCopy& copy) {
+  // A vertex lies near the one that it was collapsed onto: from there over the copy, always to
   // the nearest face around the corners of the last one.
+  const TriangleMesh& mesh = copy.mesh;
+  const Eigen::Index vertexCount = x_.rows();
+  std::vector<int> number(outgoing_.size(), -1);
+  for (std::size_t i = 0; i < copy.vertexOf.size(); ++i) {
+    number[at(copy.vertexOf[i])] = static_cast<int>(i);
+  }
   std::vector<int> start(static_cast<std::size_t>(vertexCount), -1);
   for (int v = 0; v < static_cast<int>(vertexCount); ++v) start[at(v)] = number[at(root(v))];
   const VertexCorners corners = vertexCorners(mesh.vertices.rows(), mesh.faces);
@@ -288,6 +300,10 @@ Interpolation Collapsing::interpolation(const TriangleMesh& mesh, const std::vec
     }
   });
   return {std::move(faces), std::move(weights), mesh.vertices.rows()};
+}
+
+bool isMuchLess(Eigen::Index size, const Points& vertices) {
+  return static_cast<double>(vertices.rows()) >= kWorthwhile * static_cast<double>(size);
 }
 
 } // namespace
@@ -348,16 +364,28 @@ Matrix Interpolation::transposeTimes(
   return sum;
 }
 
-Proxy makeProxy(const Points& vertices, const Faces& faces, Eigen::Index size) {
-  if (static_cast<double>(vertices.rows()) >= kWorthwhile * static_cast<double>(size)) {
+CoarseCopy coarseCopy(const Points& vertices, const Faces& faces, const Coarseness& wanted) {
+  if (isMuchLess(wanted.least, vertices)) {
     Collapsing surface(vertices, faces);
-    surface.reduceTo(size);
-    return surface.result(vertices.rows());
+    surface.reduceTo(wanted.most);
+    surface.reduceTo(wanted.least, wanted.distance);
+    if (isMuchLess(surface.size(), vertices)) return surface.copy();
   }
-  Proxy proxy{{vertices, faces}, {}, Interpolation::identity(vertices.rows())};
-  proxy.vertexOf.resize(static_cast<std::size_t>(vertices.rows()));
-  std::iota(proxy.vertexOf.begin(), proxy.vertexOf.end(), 0);
-  return proxy;
+  CoarseCopy copy{{vertices, faces}, {}};
+  copy.vertexOf.resize(static_cast<std::size_t>(vertices.rows()));
+  std::iota(copy.vertexOf.begin(), copy.vertexOf.end(), 0);
+  return copy;
+}
+
+Proxy makeProxy(const Points& vertices, const Faces& faces, Eigen::Index size) {
+  if (!isMuchLess(size, vertices)) {
+    return {{vertices, faces}, Interpolation::identity(vertices.rows())};
+  }
+  Collapsing surface(vertices, faces);
+  surface.reduceTo(size);
+  const CoarseCopy copy = surface.copy();
+  Interpolation interpolation = surface.interpolationFrom(copy);
+  return {copy.mesh, std::move(interpolation)};
 }
 
 } // namespace massprops

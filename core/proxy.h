@@ -34,17 +34,32 @@ private:
   Points weights_;
 };
 
-struct Proxy {
+struct CoarseCopy {
   /// Closed manifolds, as many as the surface has components; may cross themselves a little.
   TriangleMesh mesh;
-  /// For every proxy vertex the vertex of the surface that it is.
+  /// For every vertex of the copy the vertex of the surface that it is.
   std::vector<int> vertexOf;
+};
+
+/// How coarse: about `most` vertices, and fewer, down to `least`, where those that go are within
+/// `distance` of the planes of the faces that they belonged to, in the mean square.
+struct Coarseness {
+  Eigen::Index most, least;
+  double distance;
+};
+
+/// Collapses edges, those first that change the shape least [GH97] and are shortest. The surface
+/// itself where it has not clearly more vertices.
+/// \pre closed manifold components
+CoarseCopy coarseCopy(const Points& vertices, const Faces& faces, const Coarseness& wanted);
+
+struct Proxy {
+  TriangleMesh mesh; ///< a coarse copy
   /// The surface's vertices by the proxy's, at the points of the proxy next to them.
   Interpolation interpolation;
 };
 
-/// Collapses edges until about `size` vertices are left, those first that change the shape least
-/// [GH97] and are shortest. The surface itself where it has not clearly more vertices.
+/// A coarse copy of about `size` vertices that carries functions.
 /// \pre closed manifold components
 Proxy makeProxy(const Points& vertices, const Faces& faces, Eigen::Index size);
 

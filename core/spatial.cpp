@@ -35,7 +35,7 @@ Vector chords(const TriangleTree& surface, const Points& points, const Points& d
 }
 
 Clearance clearanceOf(const Points& vertices, const Faces& faces, const TriangleTree& other,
-                      double horizon) {
+                      double horizon, bool findLeast) {
   Clearance result;
   result.distance = Vector::Constant(vertices.rows(), kInfinity);
   result.nearestFace.assign(static_cast<std::size_t>(vertices.rows()), -1);
@@ -61,7 +61,7 @@ Clearance clearanceOf(const Points& vertices, const Faces& faces, const Triangle
     });
   };
   measure();
-  if (squared.minCoeff() > exact) {
+  if (findLeast && squared.minCoeff() > exact) {
     // All is far away, so that the least of all is not known yet.
     exact = squared.minCoeff();
     measure();
@@ -77,7 +77,8 @@ Clearance clearanceOf(const Points& vertices, const Faces& faces, const Triangle
   // Σλ_i|y_i − y|². The last sum is at most the squared radius of the smallest ball around the
   // triangle.
   const double leastAtVertices = squared.minCoeff();
-  const double wanted = std::max(horizon * horizon, leastAtVertices);
+  const double wanted =
+      findLeast ? std::max(horizon * horizon, leastAtVertices) : horizon * horizon;
   struct Near {
     int face;
     double squaredDistance;

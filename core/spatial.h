@@ -23,8 +23,10 @@ struct Clearance {
 
 /// How far a surface is from another one, edges and insides of faces included.
 /// docs/math.md "Measuring the wall"
+/// `findLeast`: if not, the least of all is exact below the horizon only, too: quicker where most
+/// is just beyond it.
 Clearance clearanceOf(const Points& vertices, const Faces& faces, const TriangleTree& other,
-                      double horizon);
+                      double horizon, bool findLeast = true);
 
 /// The distances alone.
 Vector surfaceDistances(const Points& vertices, const Faces& faces, const Points& otherVertices,

@@ -23,6 +23,12 @@ public:
   };
   TriangleTree(const Points& vertices, const Faces& faces, Order order = Order::Any);
 
+  const Points& vertices() const { return vertices_; }
+  const Faces& faces() const { return faces_; }
+  /// Corners of a box around the triangles.
+  Vec3 lower() const { return Eigen::Map<const Eigen::Vector3f>(boxes_[1].lower).cast<double>(); }
+  Vec3 upper() const { return Eigen::Map<const Eigen::Vector3f>(boxes_[1].upper).cast<double>(); }
+
   struct Hit {
     double squaredDistance = std::numeric_limits<double>::infinity();
     int face = -1; ///< −1: nothing within the bound

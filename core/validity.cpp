@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace massprops {
@@ -347,9 +348,9 @@ private:
 /// it. A way that meets an edge tells nothing: other ways are tried, a bounded number of them.
 class Parity {
 public:
-  Parity(const Points& surface, const Faces& faces, const TriangleTree& tree)
-      : x_(surface), faces_(faces), tree_(tree), lower_(surface.colwise().minCoeff()),
-        upper_(surface.colwise().maxCoeff()), length_(2.0 * (upper_ - lower_).norm()) {}
+  explicit Parity(const TriangleTree& surface)
+      : x_(surface.vertices()), faces_(surface.faces()), tree_(surface), lower_(surface.lower()),
+        upper_(surface.upper()), length_(2.0 * (upper_ - lower_).norm()) {}
 
   bool isInside(const Vec3& p) const {
     if ((p.array() <= lower_.array()).any() || (p.array() >= upper_.array()).any()) return false;
@@ -422,6 +423,26 @@ private:
   double length_;
 };
 
+/// The way to a nearest point within a face meets the surface nowhere else, so that its side of the
+/// face decides. Empty: the nearest point is not well within the face.
+std::optional<bool> sideOfNearest(const Vec3& p, int nearestFace, const TriangleTree& surface) {
+  const auto corner = [&](int k) {
+    return Vec3(surface.vertices().row(surface.faces()(nearestFace, k)).transpose());
+  };
+  const Vec3 a = corner(0);
+  const Vec3 b = corner(1);
+  const Vec3 c = corner(2);
+  const Vec3 weights = nearestWeights(p, a, b, c);
+  const Vec3 normal = (b - a).cross(c - a);
+  const Vec3 way = p - (weights[0] * a + weights[1] * b + weights[2] * c);
+  constexpr double kWellInside = 1e-3;
+  if (weights.minCoeff() > kWellInside && way.norm() > 1e-6 * (b - a).norm() &&
+      std::abs(normal.dot(way)) > 0.999 * normal.norm() * way.norm()) {
+    return normal.dot(way) < 0.0;
+  }
+  return std::nullopt;
+}
+
 } // namespace
 
 std::vector<int> selfIntersectingFaces(const Points& vertices, const Faces& faces,
@@ -448,7 +469,7 @@ std::vector<int> facesWithoutArea(const Points& vertices, const Faces& faces) {
 
 std::vector<bool> insideOf(const Points& points, const Points& surface, const Faces& faces) {
   const TriangleTree tree(surface, faces);
-  const Parity parity(surface, faces, tree);
+  const Parity parity(tree);
   std::vector<char> inside(static_cast<std::size_t>(points.rows()));
   constexpr Eigen::Index kChunk = 256;
   forChunks(points.rows(), kChunk, [&](const Chunk& chunk) {
@@ -459,28 +480,21 @@ std::vector<bool> insideOf(const Points& points, const Points& surface, const Fa
   return {inside.begin(), inside.end()};
 }
 
-bool isInside(const Points& vertices, const Faces& component, const Points& surface,
-              const Faces& faces, const TriangleTree& surfaceTree) {
-  // The way to a nearest point within a face meets the surface nowhere else, so that its side of
-  // the face decides. Some vertex has such a point, most often the first.
+bool isInside(const Vec3& p, const TriangleTree::Hit& nearest, const TriangleTree& surface) {
+  const std::optional<bool> side = sideOfNearest(p, nearest.face, surface);
+  return side ? *side : Parity(surface).isInside(p);
+}
+
+bool isInside(const Points& vertices, const Faces& component, const TriangleTree& surface) {
+  // Some vertex has a nearest point within a face, most often the first.
   constexpr Eigen::Index kMostTries = 64;
   const Eigen::Index step = std::max<Eigen::Index>(1, component.rows() / kMostTries);
   for (Eigen::Index f = 0; f < component.rows(); f += step) {
     const Vec3 p = vertices.row(component(f, 0)).transpose();
-    const int nearest = surfaceTree.nearest(p).face;
-    const Vec3 a = surface.row(faces(nearest, 0)).transpose();
-    const Vec3 b = surface.row(faces(nearest, 1)).transpose();
-    const Vec3 c = surface.row(faces(nearest, 2)).transpose();
-    const Vec3 weights = nearestWeights(p, a, b, c);
-    const Vec3 normal = (b - a).cross(c - a);
-    const Vec3 way = p - (weights[0] * a + weights[1] * b + weights[2] * c);
-    constexpr double kWellInside = 1e-3;
-    if (weights.minCoeff() > kWellInside && way.norm() > 1e-6 * (b - a).norm() &&
-        std::abs(normal.dot(way)) > 0.999 * normal.norm() * way.norm()) {
-      return normal.dot(way) < 0.0;
-    }
+    const std::optional<bool> side = sideOfNearest(p, surface.nearest(p).face, surface);
+    if (side) return *side;
   }
-  return Parity(surface, faces, surfaceTree).isInside(vertices.row(component(0, 0)).transpose());
+  return Parity(surface).isInside(vertices.row(component(0, 0)).transpose());
 }
 
 } // namespace massprops

@@ -23,9 +23,11 @@ std::vector<int> facesWithoutArea(const Points& vertices, const Faces& faces);
 /// as outside.
 std::vector<bool> insideOf(const Points& points, const Points& surface, const Faces& faces);
 
+/// Whether p, whose nearest point of the closed, outward oriented surface is known, lies inside.
+bool isInside(const Vec3& p, const TriangleTree::Hit& nearest, const TriangleTree& surface);
+
 /// Whether a component that does not cross the closed, outward oriented surface lies inside of it;
 /// decided by one of its vertices. Exact as `insideOf`.
-bool isInside(const Points& vertices, const Faces& component, const Points& surface,
-              const Faces& faces, const TriangleTree& surfaceTree);
+bool isInside(const Points& vertices, const Faces& component, const TriangleTree& surface);
 
 } // namespace massprops

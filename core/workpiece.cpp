@@ -3,6 +3,7 @@
 #include "core/triangle_tree.h"
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 
 namespace massprops {
@@ -41,10 +42,10 @@ void arrangeInSpace(const Solid& solid, Workpiece& piece) {
   }
 }
 
-Eigen::Index solidRow(const Workpiece& piece, Eigen::Index row) {
-  const Eigen::Index n = piece.vertices.rows();
-  return row < n ? piece.vertexOf[static_cast<std::size_t>(row)]
-                 : n + piece.vertexOf[static_cast<std::size_t>(row - n)];
+Eigen::Index placeOf(Eigen::Index row, const std::vector<int>& places) {
+  const auto n = static_cast<Eigen::Index>(places.size());
+  return row < n ? places[static_cast<std::size_t>(row)]
+                 : n + places[static_cast<std::size_t>(row - n)];
 }
 
 /// Water that gets into the shell sinks it.
@@ -90,20 +91,33 @@ Workpiece makeWorkpiece(const Solid& solid, const Options& options) {
   return piece;
 }
 
-Points inSolidOrder(const Workpiece& piece, const Points& values) {
+std::vector<int> placesInSolid(const Workpiece& piece, const std::vector<int>& vertices) {
+  const auto inSolid = [&](int v) {
+    return static_cast<std::size_t>(piece.vertexOf[static_cast<std::size_t>(v)]);
+  };
+  std::vector<int> place(piece.vertexOf.size(), 0);
+  for (const int v : vertices) place[inSolid(v)] = 1;
+  std::exclusive_scan(place.begin(), place.end(), place.begin(), 0);
+  std::vector<int> places;
+  places.reserve(vertices.size());
+  for (const int v : vertices) places.push_back(place[inSolid(v)]);
+  return places;
+}
+
+Points placed(const Points& values, const std::vector<int>& places) {
   Points result(values.rows(), 3);
-  for (Eigen::Index v = 0; v < values.rows(); ++v) result.row(solidRow(piece, v)) = values.row(v);
+  for (Eigen::Index v = 0; v < values.rows(); ++v) result.row(placeOf(v, places)) = values.row(v);
   return result;
 }
 
-Vector inSolidOrder(const Workpiece& piece, const Vector& values) {
+Vector placed(const Vector& values, const std::vector<int>& places) {
   Vector result(values.size());
-  for (Eigen::Index v = 0; v < values.size(); ++v) result[solidRow(piece, v)] = values[v];
+  for (Eigen::Index v = 0; v < values.size(); ++v) result[placeOf(v, places)] = values[v];
   return result;
 }
 
-Faces inSolidOrder(const Workpiece& piece, const Faces& faces) {
-  return faces.unaryExpr([&](int v) { return static_cast<int>(solidRow(piece, v)); });
+Faces placed(const Faces& faces, const std::vector<int>& places) {
+  return faces.unaryExpr([&](int v) { return static_cast<int>(placeOf(v, places)); });
 }
 
 } // namespace massprops

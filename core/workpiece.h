@@ -34,10 +34,12 @@ struct Workpiece {
 /// an opening lies below the wished waterline
 Workpiece makeWorkpiece(const Solid& solid, const Options& options);
 
-/// Rows, or faces, over the piece's n vertices as rows or faces over the solid's; over 2n positions
-/// both halves alike.
-Points inSolidOrder(const Workpiece& piece, const Points& values);
-Vector inSolidOrder(const Workpiece& piece, const Vector& values);
-Faces inSolidOrder(const Workpiece& piece, const Faces& faces);
+/// For each of these vertices of the piece its place when they come in the solid's order.
+std::vector<int> placesInSolid(const Workpiece& piece, const std::vector<int>& vertices);
+
+/// Rows, or the rows that faces refer to, at their places; of 2n rows both halves alike.
+Points placed(const Points& values, const std::vector<int>& places);
+Vector placed(const Vector& values, const std::vector<int>& places);
+Faces placed(const Faces& faces, const std::vector<int>& places);
 
 } // namespace massprops

@@ -2,6 +2,7 @@
 #include "core/bounds.h"
 
 #include "core/harmonics.h"
+#include "core/proxy.h"
 #include "shapes.h"
 
 #include <Eigen/Geometry>
@@ -155,6 +156,28 @@ TEST(InnerBounds, KeepTheWallPerpendicularToEveryFace) {
 TEST(InnerBounds, EndAtTheFactorTimesTheReach) {
   const OffsetField field = leaningField(blob(4));
   EXPECT_LT((innerBounds(field, 0.01, 0.7).upper - 0.7 * field.reach).cwiseAbs().maxCoeff(), 1e-15);
+}
+
+TEST(InnerBoundsOfACopy, KeepTheWallFromTheSurfaceAndLittleMore) {
+  const TriangleMesh fine = sphere(60);
+  const TriangleMesh copy = coarseCopy(fine.vertices, fine.faces, {400, 400, 0.0}).mesh;
+  // Directions away from a point beside the middle: slanted against the surface.
+  const Points axis = Points::Zero(400, 3).rowwise() + Eigen::RowVector3d(0.5, 0.3, 0.0);
+  const OffsetField field = offsetField(copy.vertices, copy.faces, axis);
+  const TriangleTree surface(fine.vertices, fine.faces);
+  const double wall = 0.05;
+  const OffsetBounds bounds =
+      keepingWall(copy.vertices, surface, field, innerBoundsOfCopy(field, wall, 1.0), wall);
+  const OffsetBounds strict =
+      keepingWall(copy.vertices, surface, field, innerBounds(field, wall, 1.0), wall);
+  const auto depths = [&](const OffsetBounds& b) {
+    // Of a ball of radius 1, whose facets are deeper by less than 3e-4.
+    const Points inner = copy.vertices - b.lower.asDiagonal() * field.directions;
+    return Vector(1.0 - inner.rowwise().norm().array());
+  };
+  EXPECT_GT(depths(bounds).minCoeff(), (1.0 - 2e-3) * wall);
+  EXPECT_LT(depths(bounds).mean(), 1.05 * wall);
+  EXPECT_GT(depths(strict).mean(), 1.07 * wall);
 }
 
 TEST(TooThin, IsWhatHasNoRoomOrNoDirection) {

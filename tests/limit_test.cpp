@@ -29,6 +29,10 @@ ContactArea square(double side) {
   return {{{-h, -h}, {h, -h}, {h, h}, {-h, h}}, {}};
 }
 
+TriangleTree treeOf(const TriangleMesh& mesh) {
+  return {mesh.vertices, mesh.faces};
+}
+
 /// Least value of a function with one minimum in [low, high].
 template <class F>
 double leastValue(const F& f, double low, double high) {
@@ -43,7 +47,7 @@ double leastValue(const F& f, double low, double high) {
 TEST(AdmissibleCells, OfABoxFillTheSmallerBox) {
   const double wall = 0.07;
   const TriangleMesh outer = box({1.0, 1.5, 2.0}, 2);
-  const AdmissibleCells cells = admissibleCells(outer.vertices, outer.faces, outer, wall);
+  const AdmissibleCells cells = admissibleCells(treeOf(outer), wall);
   const Eigen::Array3d inner = Eigen::Array3d(1.0, 1.5, 2.0) - 2 * wall;
   const double volume = inner.prod();
   const Eigen::RowVectorXd sums = cells.colwise().sum();
@@ -61,7 +65,7 @@ TEST(AdmissibleCells, OfABoxFillTheSmallerBox) {
 TEST(AdmissibleCells, LeaveOutWhatIsOutsideWhereTheWallIsThinnerThanACell) {
   const double wall = 1e-3;
   const TriangleMesh outer = torus(1.0, 0.4, 96, 48);
-  const AdmissibleCells cells = admissibleCells(outer.vertices, outer.faces, outer, wall, 5000);
+  const AdmissibleCells cells = admissibleCells(treeOf(outer), wall, 5000);
   const double volume = moments(outer.vertices, outer.faces)[0];
   const double area = 4 * kPi * kPi * 0.4;
   EXPECT_NEAR(cells.col(0).sum(), volume - area * wall, 1e-2 * volume);
@@ -69,12 +73,12 @@ TEST(AdmissibleCells, LeaveOutWhatIsOutsideWhereTheWallIsThinnerThanACell) {
 
 TEST(AdmissibleCells, AreNoneWhereTheWallIsTooThick) {
   const TriangleMesh outer = box({1.0, 1.0, 1.0}, 1);
-  EXPECT_EQ(admissibleCells(outer.vertices, outer.faces, outer, 0.6).rows(), 0);
+  EXPECT_EQ(admissibleCells(treeOf(outer), 0.6).rows(), 0);
 }
 
 TEST(AdmissibleCells, AreBoundedInNumberForSheetsOfAlmostNoThickness) {
   const TriangleMesh sheet = box({1.0, 1.0, 1e-12}, 4);
-  EXPECT_LT(admissibleCells(sheet.vertices, sheet.faces, sheet, 1e-14).rows(), 1000000);
+  EXPECT_LT(admissibleCells(treeOf(sheet), 1e-14).rows(), 1000000);
 }
 
 TEST(Limit, OfAStandingBoxIsHollowAboveItsCentreOfMass) {
@@ -94,8 +98,7 @@ TEST(Limit, OfAStandingBoxIsHollowAboveItsCentreOfMass) {
       wall, top);
   const Moments solid = moments(outer.vertices, outer.faces);
   const auto goal = makeStandGoal(square(side), {}, 1.0);
-  const Limit limit =
-      limitOf(*goal, {}, solid, 0.0, admissibleCells(outer.vertices, outer.faces, outer, wall));
+  const Limit limit = limitOf(*goal, {}, solid, 0.0, admissibleCells(treeOf(outer), wall));
   const double gain = height / 2 - expected;
   EXPECT_NEAR(limit.objective, expected, 3e-3 * gain);
   EXPECT_EQ(limit.violation, 0.0);
@@ -122,8 +125,7 @@ TEST(Limit, OfASpinningBallIsTwoConesAlongTheAxis) {
   Weights inertiaOnly;
   inertiaOnly.centerOfMass = 0.0;
   const auto goal = makeSpinGoal(solid, inertiaOnly, 1.0);
-  const Limit limit = limitOf(*goal, inertiaOnly, solid, 0.0,
-                              admissibleCells(outer.vertices, outer.faces, outer, wall));
+  const Limit limit = limitOf(*goal, inertiaOnly, solid, 0.0, admissibleCells(treeOf(outer), wall));
   const double gain = 2.0 - expected;
   EXPECT_NEAR(limit.objective, expected, 5e-3 * gain);
   EXPECT_LE(limit.violation, 1e-6);
@@ -143,8 +145,7 @@ TEST(Limit, OfAHeavyFillingLiesBelow) {
                (2.0 + (filling - 1) * A * (h - wall));
       },
       wall, 2 - wall);
-  const Limit limit =
-      limitOf(*goal, {}, solid, filling, admissibleCells(outer.vertices, outer.faces, outer, wall));
+  const Limit limit = limitOf(*goal, {}, solid, filling, admissibleCells(treeOf(outer), wall));
   EXPECT_NEAR(limit.objective, expected, 3e-3 * (1.0 - expected));
 }
 
@@ -195,8 +196,7 @@ TEST_P(SampleLimit, IsWhatBruteForceFindsOnVoxels) {
   const Solid solid = makeSolid(model);
   options.innerLowerBound = 0.02 * solid.diagonal();
   const Workpiece piece = makeWorkpiece(solid, options);
-  const AdmissibleCells cells =
-      admissibleCells(piece.vertices, piece.faces, {piece.vertices, piece.faces}, piece.wall);
+  const AdmissibleCells cells = admissibleCells({piece.vertices, piece.faces}, piece.wall);
 
   // Plain voxels, in or out by their centre.
   const Vec3 low = piece.vertices.colwise().minCoeff();
@@ -271,8 +271,7 @@ TEST_P(BestVerdict, IsTheBestTippingAngleOfAllHalfSpaces) {
   const Solid solid = makeSolid(sampleMesh(GetParam()));
   options.innerLowerBound = 0.02 * solid.diagonal();
   const Workpiece piece = makeWorkpiece(solid, options);
-  const AdmissibleCells cells =
-      admissibleCells(piece.vertices, piece.faces, {piece.vertices, piece.faces}, piece.wall);
+  const AdmissibleCells cells = admissibleCells({piece.vertices, piece.faces}, piece.wall);
   const Moments whole = moments(piece.vertices, piece.faces);
   for (const bool isEllipse : {false, true}) {
     ContactArea area = piece.contact;

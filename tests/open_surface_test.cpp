@@ -228,8 +228,9 @@ TEST(InspectShell, FindsThinWallsAndFolds) {
   const Eigen::Index n = ball.vertices.rows();
   const OpenSurface open =
       openSurface(n, ball.faces, marks(ball, [](const Vec3& c) { return c.z() > -1e-9; }));
+  const TriangleTree skin(ball.vertices, open.skin);
   const auto inspected = [&](const Points& inner, double wall) {
-    return inspectShell(stacked(inner, ball.vertices), open.cavity, open.skin, wall);
+    return inspectShell(stacked(inner, ball.vertices), open.cavity, skin, wall);
   };
   const Points offset = 0.8 * ball.vertices;
   const Inspection clean = inspected(offset, 0.19);

@@ -3,6 +3,7 @@
 #include "core/pipeline.h"
 
 #include "checks.h"
+#include "samples.h"
 #include "shapes.h"
 
 #include <Eigen/Eigenvalues>
@@ -96,7 +97,8 @@ std::vector<Case> cases() {
           {"filled", leaningPillar(), filled},
           {"far away and sideways", transformed(leaningPillar(), 30 * toMinusY, {1000, -2000, 500}),
            sideways},
-          {"hopeless", hopelessPillar(), stand()}};
+          {"hopeless", hopelessPillar(), stand()},
+          {"fine", subdivided(sampleMesh("toy_dog")), stand()}};
 }
 
 /// Each case is computed once for all tests.

@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
@@ -57,15 +58,48 @@ TEST(Proxy, IsTheSurfaceItselfWhereThatIsCoarse) {
 
 TEST(Proxy, HasVerticesOfTheSurfaceAndNearlyItsVolume) {
   const TriangleMesh mesh = blob(40);
-  const Proxy proxy = makeProxy(mesh.vertices, mesh.faces, 1000);
-  for (std::size_t i = 0; i < proxy.vertexOf.size(); ++i) {
-    EXPECT_EQ(proxy.mesh.vertices.row(static_cast<Eigen::Index>(i)),
-              mesh.vertices.row(proxy.vertexOf[i]));
+  const CoarseCopy copy = coarseCopy(mesh.vertices, mesh.faces, {1000, 1000, 0.0});
+  for (std::size_t i = 0; i < copy.vertexOf.size(); ++i) {
+    EXPECT_EQ(copy.mesh.vertices.row(static_cast<Eigen::Index>(i)),
+              mesh.vertices.row(copy.vertexOf[i]));
   }
   // Edges of length 0.13 on curvatures of about 1 cut off 1/8·0.13² of the radius.
-  EXPECT_NEAR(moments(proxy.mesh.vertices, proxy.mesh.faces)[0] /
+  EXPECT_NEAR(moments(copy.mesh.vertices, copy.mesh.faces)[0] /
                   moments(mesh.vertices, mesh.faces)[0],
               1.0, 0.01);
+}
+
+TEST(CoarseCopy, IsAsCoarseAsTheDistanceAllows) {
+  const auto sizeOf = [](const TriangleMesh& mesh, double distance) {
+    return coarseCopy(mesh.vertices, mesh.faces, {4000, 300, distance}).mesh.vertices.rows();
+  };
+  // The sides of a box lose nothing.
+  EXPECT_EQ(sizeOf(box({1, 1, 1}, 40), 1e-9), 300);
+  // On a ball the distance goes with the square of the edges, that is, inversely with their number.
+  const TriangleMesh ball = sphere(40);
+  const auto fine = static_cast<double>(sizeOf(ball, 1e-3));
+  const auto coarse = static_cast<double>(sizeOf(ball, 4e-3));
+  EXPECT_LT(fine, 4000);
+  EXPECT_GT(coarse, 300);
+  EXPECT_NEAR(fine / coarse, 4.0, 1.0);
+}
+
+TEST(CoarseCopy, HasFewSliversAlsoOfVeryFineSurfaces) {
+  const TriangleMesh fine = blob(150); // 225,000 vertices
+  const TriangleMesh copy = coarseCopy(fine.vertices, fine.faces, {3000, 3000, 0.0}).mesh;
+  EXPECT_EQ(copy.vertices.rows(), 3000);
+  Eigen::Index slivers = 0;
+  for (Eigen::Index f = 0; f < copy.faces.rows(); ++f) {
+    const auto edge = [&](int k) {
+      return Vec3(
+          (copy.vertices.row(copy.faces(f, (k + 1) % 3)) - copy.vertices.row(copy.faces(f, k)))
+              .transpose());
+    };
+    const double longest =
+        std::max({edge(0).squaredNorm(), edge(1).squaredNorm(), edge(2).squaredNorm()});
+    slivers += edge(0).cross(edge(1)).norm() < 0.2 * longest ? 1 : 0;
+  }
+  EXPECT_LE(slivers, copy.faces.rows() / 50);
 }
 
 TEST(Interpolation, ReproducesConstantsAndNearlyThePositions) {

@@ -59,6 +59,7 @@ TEST(SkeletonFailure, StillGivesACavityThatKeepsTheWall) {
   const TriangleMesh model = leaningTop(0.1, 16); // 2562 vertices
   const Workpiece piece = makeWorkpiece(makeSolid(model), options);
   const Skeleton skeleton = meanCurvatureSkeleton(piece.vertices, piece.faces, kHardlyAny);
+  const TriangleTree surface(piece.vertices, piece.faces);
   ASSERT_EQ(skeleton.failedComponents, 1);
 
   const SparseMatrix L = cotanLaplacian(piece.vertices, piece.faces);
@@ -69,11 +70,12 @@ TEST(SkeletonFailure, StillGivesACavityThatKeepsTheWall) {
       offsetField(piece.vertices, piece.faces, skeleton.points, L, area, 0.02);
   const Moments solid = moments(piece.vertices, piece.faces);
   const std::unique_ptr<Goal> goal = makeSpinGoal(solid, options.weights, piece.frame.length);
-  CavityTask task{piece.vertices, piece.faces, field, basis, L, mass, *goal, options.weights};
+  CavityTask task{surface, piece.vertices, piece.faces, field,          basis,
+                  L,       mass,           *goal,       options.weights};
   task.solidMoments = solid;
   task.inputMoments = solid;
   task.wall = piece.wall;
-  task.inner = keepingWall(piece.vertices, piece.faces, field,
+  task.inner = keepingWall(piece.vertices, surface, field,
                            innerBounds(field, piece.wall, options.innerUpperBound), piece.wall);
   task.deliverable = [](const Points& points) { return points; };
   const CavityResult cavity = searchCavity(task, {});
