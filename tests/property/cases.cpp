@@ -460,6 +460,12 @@ PropertyCase makeCase(std::uint32_t seed, int number) {
     body = jittered(body, amplitude, seed + static_cast<std::uint32_t>(number));
     text << "jittered ";
   }
+  if (chance.oneIn(5)) {
+    // Most often fine enough that a coarse copy of it moves inwards; what is rough is not the copy.
+    body = subdivided(body);
+    body = jittered(body, chance.between(0.0, 0.25) * shortestEdge(body), seed);
+    text << "refined ";
+  }
 
   // Pose: as made, or turned and perhaps flattened where it stands.
   c.options.goal = static_cast<GoalKind>(chance.integer(0, 7));
