@@ -2,15 +2,17 @@
 // what CGAL's skeletonisation of the same mesh takes in the same run. benchmarks/results.md keeps
 // the output with the machine named.
 //
-// usage: scaling [all]   `all` measures the skeletonisation of a million vertices, too: minutes, 5
+// usage: scaling [all]   `all` measures the skeletonisation of the largest meshes, too: minutes, 5
 // GB
 #include "core/parallel.h"
 #include "core/pipeline.h"
+#include "core/proxy.h"
 #include "core/stopwatch.h"
 #include "organic_model.h"
 #include "property/cases.h"
 #include "property/guarantee.h"
 #include "samples.h"
+#include "shapes.h"
 
 #include <CGAL/Mean_curvature_flow_skeletonization.h>
 #include <CGAL/Polyhedron_3.h>
@@ -36,8 +38,22 @@ using namespace massprops;
 
 struct Model {
   const char* name;
+  GoalKind goal;
   std::function<TriangleMesh()> make;
+  bool isLarge = false; ///< its skeletonisation takes minutes
 };
+
+/// Every triangle in four, so many times.
+TriangleMesh refined(const char* sample, int times) {
+  TriangleMesh mesh = testing::sampleMesh(sample);
+  for (int i = 0; i < times; ++i) mesh = testing::subdivided(mesh);
+  return mesh;
+}
+
+TriangleMesh dinosaur(Eigen::Index size) {
+  const TriangleMesh fine = refined("toy_dinosaur", 1);
+  return coarseCopy(fine.vertices, fine.faces, {size, size, 0.0}).mesh;
+}
 
 /// As a file of floats holds it; in doubles a few faces at the rims of the feet cross.
 TriangleMesh asFloats(TriangleMesh mesh) {
@@ -82,10 +98,10 @@ double residentMegabytes() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-void measure(const Model& model, GoalKind goal, bool withSkeleton) {
+void measure(const Model& model, bool withSkeleton) {
   const TriangleMesh mesh = model.make();
   Options options;
-  options.goal = goal;
+  options.goal = model.goal;
   // As a float mesh stores it.
   options.representable = [](const Points& points) {
     return Points(points.cast<float>().cast<double>());
@@ -113,9 +129,9 @@ void measure(const Model& model, GoalKind goal, bool withSkeleton) {
   promise.floats = true;
   const std::size_t broken = testing::brokenPromises(promise, result).size();
   std::printf("%-12s %-5s %8ld %9.3f %8.3f %9.3f %9.3f %8.3f", model.name,
-              goal == GoalKind::Stand ? "Stand" : "Spin", static_cast<long>(mesh.vertices.rows()),
-              median(skeleton), median(basis), median(optimization), median(inspection),
-              median(total));
+              model.goal == GoalKind::Stand ? "Stand" : "Spin",
+              static_cast<long>(mesh.vertices.rows()), median(skeleton), median(basis),
+              median(optimization), median(inspection), median(total));
   const double plain = withSkeleton ? cgalSkeletonSeconds(mesh) : 0.0;
   if (withSkeleton) {
     std::printf(" %9.2f %6.3f", plain, median(total) / plain);
@@ -132,11 +148,16 @@ void measure(const Model& model, GoalKind goal, bool withSkeleton) {
 int main(int argc, char** argv) {
   const bool all = argc > 1 && std::strcmp(argv[1], "all") == 0;
   const std::vector<Model> models = {
-      {"box", [] { return testing::sampleMesh("box_on_corner"); }},
-      {"dinosaur", [] { return testing::sampleMesh("toy_dinosaur"); }},
-      {"organic 20k", [] { return benchmarks::organicModel(20000); }},
-      {"organic 100k", [] { return benchmarks::organicModel(100000); }},
-      {"organic 1M", [] { return asFloats(benchmarks::organicModel(750000)); }},
+      {"box", GoalKind::Stand, [] { return testing::sampleMesh("box_on_corner"); }},
+      {"dinosaur", GoalKind::Stand, [] { return testing::sampleMesh("toy_dinosaur"); }},
+      {"dinosaur", GoalKind::Stand, [] { return dinosaur(20000); }},
+      {"organic", GoalKind::Stand, [] { return benchmarks::organicModel(20000); }},
+      {"organic", GoalKind::Stand, [] { return benchmarks::organicModel(100000); }},
+      {"organic", GoalKind::Stand, [] { return asFloats(benchmarks::organicModel(970000)); }, true},
+      {"top", GoalKind::Spin, [] { return refined("tilted_ellipsoid_top", 2); }},
+      {"top", GoalKind::Spin, [] { return refined("tilted_ellipsoid_top", 3); }},
+      {"top", GoalKind::Spin, [] { return refined("tilted_ellipsoid_top", 4); }},
+      {"top", GoalKind::Spin, [] { return refined("tilted_ellipsoid_top", 5); }, true},
   };
   std::printf("Medians, seconds of wall time, %d threads; memory above the input in megabytes.\n",
               threadCount());
@@ -145,20 +166,17 @@ int main(int argc, char** argv) {
               "memory", "objective", "violation", "guarantee");
   std::fflush(stdout);
   for (const Model& model : models) {
-    for (const GoalKind goal : {GoalKind::Stand, GoalKind::Spin}) {
-      // A process for each: peak memory is of the whole process, and nothing of one run is left in
-      // the heap for the next.
-      const pid_t child = fork();
-      if (child == 0) {
-        const bool large = std::strcmp(model.name, "organic 1M") == 0;
-        measure(model, goal, goal == GoalKind::Stand && (all || !large));
-        _exit(0);
-      }
-      int status = 0;
-      if (child < 0 || waitpid(child, &status, 0) != child || status != 0) {
-        std::printf("%s: a run failed\n", model.name);
-        return 1;
-      }
+    // A process for each: peak memory is of the whole process, and nothing of one run is left in
+    // the heap for the next.
+    const pid_t child = fork();
+    if (child == 0) {
+      measure(model, all || !model.isLarge);
+      _exit(0);
+    }
+    int status = 0;
+    if (child < 0 || waitpid(child, &status, 0) != child || status != 0) {
+      std::printf("%s: a run failed\n", model.name);
+      return 1;
     }
   }
   return 0;
