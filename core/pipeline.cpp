@@ -26,19 +26,29 @@ constexpr double kDiffusionLength = 0.02;
 /// Above this gap another search, with other directions, is worth its time.
 constexpr double kFarFromLimit = 0.075;
 
+/// A function of the basis needs a few vertices to have a shape.
+constexpr Eigen::Index kVerticesAFunction = 4;
+
 /// What moves inwards is as fine as a cavity has to be: on finer ones, the objective does not
 /// improve by more than the one or two per cent that it scatters by. In working lengths.
-constexpr Coarseness kCage{12000, 3000, 1.5e-4};
+Coarseness cageFor(int basisSize) {
+  constexpr Eigen::Index kMost = 12000;
+  constexpr Eigen::Index kLeast = 3000;
+  constexpr double kDistance = 1.5e-4;
+  const Eigen::Index needed = kVerticesAFunction * basisSize;
+  return {std::max(kMost, needed), std::max(kLeast, needed), kDistance};
+}
 
 /// Vertices of the proxy. On models with thin limbs its skeleton costs some per cent of what
 /// hollowing gains, with a scatter that falls slowly with its size (benchmarks/results.md). The
 /// whole of a small model takes less than a second.
-Eigen::Index proxySize(Eigen::Index vertexCount) {
+Eigen::Index proxySize(Eigen::Index vertexCount, int basisSize) {
   constexpr Eigen::Index kSmall = 5000;
   constexpr double kShare = 0.33;
   constexpr double kMost = 5000.0;
   if (vertexCount <= kSmall) return vertexCount;
-  return static_cast<Eigen::Index>(std::min(kShare * static_cast<double>(vertexCount), kMost));
+  const double size = std::min(kShare * static_cast<double>(vertexCount), kMost);
+  return std::max(static_cast<Eigen::Index>(size), kVerticesAFunction * basisSize);
 }
 
 /// Per cent of the time at which stages begin. Seconds a vertex were measured on one machine; only
@@ -48,12 +58,13 @@ struct Schedule {
   static constexpr int kEnd = 95;
 };
 
-Schedule scheduleFor(Eigen::Index vertexCount, bool isCopied) {
+Schedule scheduleFor(Eigen::Index vertexCount, int basisSize, bool isCopied) {
   const auto n = static_cast<double>(vertexCount);
-  const double moving = isCopied ? std::min(n, 0.8 * static_cast<double>(kCage.most)) : n;
+  const double moving =
+      isCopied ? std::min(n, 0.8 * static_cast<double>(cageFor(basisSize).most)) : n;
   const double check = 1.7e-6 * n;
   const double copy = isCopied ? 1e-6 * n : 0.0;
-  const double skeleton = 4e-5 * static_cast<double>(proxySize(vertexCount)) + 2e-7 * n;
+  const double skeleton = 4e-5 * static_cast<double>(proxySize(vertexCount, basisSize)) + 2e-7 * n;
   const double directions = 5e-6 * moving;
   const double search = 2.5e-5 * moving + 1e-6 * n;
   const double total = check + copy + skeleton + directions + search;
@@ -120,20 +131,21 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
 
   const bool needsAll = options.fullResolution || options.outerUpperBound > 0.0 || piece.open;
   const Eigen::Index n = piece.vertices.rows();
-  const Schedule schedule = scheduleFor(n, !needsAll);
+  const Schedule schedule = scheduleFor(n, options.basisSize, !needsAll);
   stages.secondsCheck = total.seconds();
 
   // A coarse copy of the surface moves inwards, where the surface itself need not move as well.
   tell(schedule.copy, "Coarse copies");
   const Stopwatch copyTime;
-  const CoarseCopy cage =
-      coarseCopy(piece.vertices, piece.faces, needsAll ? Coarseness{n, n, 0.0} : kCage);
+  const CoarseCopy cage = coarseCopy(piece.vertices, piece.faces,
+                                     needsAll ? Coarseness{n, n, 0.0} : cageFor(options.basisSize));
   const bool isCopy = cage.mesh.vertices.rows() < n;
   const Points& x = cage.mesh.vertices;
   const Faces& faces = cage.mesh.faces;
   // Skeleton and basis are smooth: a still coarser one carries them. The basis does not need the
   // skeleton: both cores work.
-  const Proxy proxy = makeProxy(x, faces, options.fullResolution ? n : proxySize(n));
+  const Proxy proxy =
+      makeProxy(x, faces, options.fullResolution ? n : proxySize(n, options.basisSize));
   const TriangleMesh& coarse = proxy.mesh;
   stages.secondsCopy = copyTime.seconds();
   const Vector area = vertexLumpedMass(x, faces);
