@@ -146,7 +146,7 @@ TEST(ForChunks, PassesAnExceptionOn) {
 }
 
 TEST(Threads, DoNotChangeASingleBitOfTheCavity) {
-  // Large enough for a proxy and for the optimisation on it.
+  // Large enough for a coarse copy and a proxy of it.
   const TriangleMesh mesh = transformed(blob(38), someRotation());
   Options options;
   options.radiusX = options.radiusY = 0.5;
