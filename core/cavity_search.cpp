@@ -336,6 +336,10 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
 
 } // namespace
 
+Moments outerMoments(const CavityTask& task, const CavityResult& result) {
+  return task.outer ? moments(result.outer, task.faces) : task.solidMoments;
+}
+
 void addEffort(const CavityResult& other, CavityResult& result) {
   result.rounds += other.rounds;
   result.evaluations += other.evaluations;

@@ -69,6 +69,9 @@ struct CavityResult {
   double secondsInspection = 0.0;
 };
 
+/// Of the delivered outer surface, its lids included, in the working frame.
+Moments outerMoments(const CavityTask& task, const CavityResult& result);
+
 /// Counts the work that went into `other` to that of `result`.
 void addEffort(const CavityResult& other, CavityResult& result);
 

@@ -30,7 +30,7 @@ Body inputBody(const CavityTask& task) {
 
 Body hollowBody(const CavityTask& task, const CavityResult& cavity) {
   const Moments inner = moments(cavity.inner, cavity.cavity.faces);
-  const Moments outer = task.outer ? moments(cavity.outer, task.faces) : task.solidMoments;
+  const Moments outer = outerMoments(task, cavity);
   Body body;
   body.mass = shellMoments(outer, inner, 1.0, task.fillDensity);
   body.volume = outer[0] - inner[0];

@@ -36,8 +36,8 @@ Vec2 widestDirection(const Points& vertices) {
 Picture pictureOf(const Workpiece& piece, const CavityTask& task, const Goal& goalAfter,
                   const CavityResult& cavity) {
   const Moments massAfter =
-      shellMoments(task.outer ? moments(cavity.outer, task.faces) : task.solidMoments,
-                   moments(cavity.inner, cavity.cavity.faces), 1.0, task.fillDensity);
+      shellMoments(outerMoments(task, cavity), moments(cavity.inner, cavity.cavity.faces), 1.0,
+                   task.fillDensity);
   const Vec3 before = massProperties(task.inputMoments).centerOfMass;
   const Vec3 after = massProperties(massAfter).centerOfMass;
 

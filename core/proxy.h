@@ -42,7 +42,8 @@ struct CoarseCopy {
 };
 
 /// How coarse: about `most` vertices, and fewer, down to `least`, where those that go are within
-/// `distance` of the planes of the faces that they belonged to, in the mean square.
+/// `distance` of the planes of the faces that they belonged to, in the mean square; a length in the
+/// vertices' unit.
 struct Coarseness {
   Eigen::Index most, least;
   double distance;

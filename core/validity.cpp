@@ -467,22 +467,13 @@ std::vector<int> facesWithoutArea(const Points& vertices, const Faces& faces) {
   return flat;
 }
 
-std::vector<bool> insideOf(const Points& points, const Points& surface, const Faces& faces) {
-  const TriangleTree tree(surface, faces);
-  const Parity parity(tree);
-  std::vector<char> inside(static_cast<std::size_t>(points.rows()));
-  constexpr Eigen::Index kChunk = 256;
-  forChunks(points.rows(), kChunk, [&](const Chunk& chunk) {
-    for (Eigen::Index p = chunk.begin; p < chunk.end; ++p) {
-      inside[static_cast<std::size_t>(p)] = parity.isInside(points.row(p).transpose()) ? 1 : 0;
-    }
-  });
-  return {inside.begin(), inside.end()};
+bool isInside(const Vec3& p, const TriangleTree& surface) {
+  return Parity(surface).isInside(p);
 }
 
 bool isInside(const Vec3& p, const TriangleTree::Hit& nearest, const TriangleTree& surface) {
   const std::optional<bool> side = sideOfNearest(p, nearest.face, surface);
-  return side ? *side : Parity(surface).isInside(p);
+  return side ? *side : isInside(p, surface);
 }
 
 bool isInside(const Points& vertices, const Faces& component, const TriangleTree& surface) {
@@ -494,7 +485,7 @@ bool isInside(const Points& vertices, const Faces& component, const TriangleTree
     const std::optional<bool> side = sideOfNearest(p, surface.nearest(p).face, surface);
     if (side) return *side;
   }
-  return Parity(surface).isInside(vertices.row(component(0, 0)).transpose());
+  return isInside(vertices.row(component(0, 0)).transpose(), surface);
 }
 
 } // namespace massprops

@@ -18,16 +18,17 @@ std::vector<int> selfIntersectingFaces(const Points& vertices, const Faces& face
 /// Faces without area, ascending. Exact.
 std::vector<int> facesWithoutArea(const Points& vertices, const Faces& faces);
 
-/// Whether each point lies strictly inside of the closed surface. Exact: by the parity of crossings
-/// along a few dozen ways out; a point from which none of them stays off the surface's edges counts
-/// as outside.
-std::vector<bool> insideOf(const Points& points, const Points& surface, const Faces& faces);
+/// Whether p lies strictly inside of the closed surface. Exact: by the parity of crossings along a
+/// few dozen ways out; a point from which none of them stays off the surface's edges counts as
+/// outside.
+bool isInside(const Vec3& p, const TriangleTree& surface);
 
-/// Whether p, whose nearest point of the closed, outward oriented surface is known, lies inside.
+/// The same, quicker, for a point whose nearest one of the closed, outward oriented surface is
+/// known.
 bool isInside(const Vec3& p, const TriangleTree::Hit& nearest, const TriangleTree& surface);
 
 /// Whether a component that does not cross the closed, outward oriented surface lies inside of it;
-/// decided by one of its vertices. Exact as `insideOf`.
+/// decided by one of its vertices. Exact, too.
 bool isInside(const Points& vertices, const Faces& component, const TriangleTree& surface);
 
 } // namespace massprops

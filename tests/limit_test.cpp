@@ -209,12 +209,11 @@ TEST_P(SampleLimit, IsWhatBruteForceFindsOnVoxels) {
   Points points(static_cast<Eigen::Index>(centres.size()), 3);
   for (std::size_t i = 0; i < centres.size(); ++i)
     points.row(static_cast<Eigen::Index>(i)) = centres[i].transpose();
-  const std::vector<bool> inside = insideOf(points, piece.vertices, piece.faces);
   const TriangleTree surface(piece.vertices, piece.faces);
   Moments voxels = Moments::Zero();
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     const Vec3 p = points.row(i).transpose();
-    if (!inside[static_cast<std::size_t>(i)] ||
+    if (!massprops::isInside(p, surface) ||
         std::sqrt(surface.nearest(p).squaredDistance) < piece.wall)
       continue;
     Moments one;
