@@ -201,17 +201,15 @@ bool closesOpening(const CavityTask& task, const std::vector<char>& solid) {
                      [&](int v) { return solid[static_cast<std::size_t>(v)] != 0; });
 }
 
-Inspection inspectResult(const CavityTask& task, const CavityResult& result, bool onlyFolds) {
+Inspection inspectResult(const CavityTask& task, const CavityResult& result, bool onlyFolds,
+                         ClearanceMemory& memory) {
   const Faces& cavity = result.cavity.faces;
   if (task.open != nullptr) return inspectShell(result.inner, cavity, task.surface, task.wall);
-  const auto inspectFrom = [&](const TriangleTree& outer) {
-    Inspection inspection =
-        inspect(result.inner, cavity, outer, task.wall, task.outer.has_value(), onlyFolds);
-    if (inspection.isClean()) measureWall(result.inner, cavity, outer, task.wall, inspection);
-    return inspection;
-  };
-  if (!task.outer) return inspectFrom(task.surface);
-  return inspectFrom({result.outer, task.surface.faces(), TriangleTree::Order::Spatial});
+  if (!task.outer) {
+    return inspect(result.inner, cavity, task.surface, task.wall, false, onlyFolds, &memory);
+  }
+  const TriangleTree moved(result.outer, task.surface.faces(), TriangleTree::Order::Spatial);
+  return inspect(result.inner, cavity, moved, task.wall, true, onlyFolds);
 }
 
 /// `freedom`: how much of the range between least and greatest offset may be used, 0…1; at 0 there
@@ -250,6 +248,7 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
   bool fillUnwanted = freedom > 0.0;
   // Once the wall is kept, most rounds only smooth out folds.
   bool onlyFolds = false;
+  ClearanceMemory memory;
   std::unique_ptr<Goal> movedGoal;
   const Goal* goal = &task.goal;
   for (int round = 0; round < kMostRounds; ++round) {
@@ -316,7 +315,7 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
     if (task.outer) result.outer = task.deliverable(surfaces.outer);
     result.innerOffsets = std::move(surfaces.innerOffsets);
     result.outerOffsets = std::move(surfaces.outerOffsets);
-    result.inspection = inspectResult(task, result, onlyFolds);
+    result.inspection = inspectResult(task, result, onlyFolds, memory);
     onlyFolds = result.inspection.thin.empty() && !result.inspection.crossing.empty();
     result.secondsInspection += inspection.seconds();
     if (progress) progress(1.0 - 1.0 / (2.0 + round));

@@ -3,7 +3,6 @@
 #include "core/components.h"
 #include "core/moments.h"
 #include "core/open_surface.h"
-#include "core/spatial.h"
 #include "core/validity.h"
 
 #include <algorithm>
@@ -35,7 +34,7 @@ std::vector<int> verticesOf(const Faces& faces,
 } // namespace
 
 Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleTree& outer,
-                   double wall, bool outerMoved, bool foldsFirst) {
+                   double wall, bool outerMoved, bool foldsFirst, ClearanceMemory* memory) {
   Inspection inspection;
   // Caps and gaps disturb the order.
   const TriangleTree::Order innerOrder = innerFaces.rows() == outer.faces().rows()
@@ -46,7 +45,7 @@ Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleT
   inspection.crossing = verticesOf(innerFaces, {&folded, &flat});
   if (foldsFirst && !inspection.crossing.empty()) return inspection;
 
-  Clearance clearance = clearanceOf(inner, innerFaces, outer, kHorizon * wall, false);
+  Clearance clearance = clearanceOf(inner, innerFaces, outer, kHorizon * wall, memory);
   inspection.crossing = verticesOf(innerFaces, {&clearance.crossing, &folded, &flat});
   if (outerMoved) {
     const std::vector<int> outerFolds =
@@ -81,13 +80,6 @@ Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleT
   return inspection;
 }
 
-void measureWall(const Points& inner, const Faces& innerFaces, const TriangleTree& outer,
-                 double wall, Inspection& inspection) {
-  Clearance clearance = clearanceOf(inner, innerFaces, outer, wall);
-  inspection.wall = std::move(clearance.distance);
-  inspection.leastWall = clearance.least;
-}
-
 Inspection inspectShell(const Points& positions, const Faces& cavity, const TriangleTree& skin,
                         double wall) {
   const Eigen::Index n = positions.rows() / 2;
@@ -112,7 +104,7 @@ Inspection inspectShell(const Points& positions, const Faces& cavity, const Tria
   inspection.crossing.erase(std::unique(inspection.crossing.begin(), inspection.crossing.end()),
                             inspection.crossing.end());
 
-  Clearance clearance = clearanceOf(positions, withoutStrips(cavity, n), skin, wall);
+  Clearance clearance = clearanceOf(positions, withoutStrips(cavity, n), skin, kHorizon * wall);
   inspection.wall = std::move(clearance.distance);
   inspection.wall.tail(n).setZero();
   inspection.leastWall = clearance.least;

@@ -1,6 +1,7 @@
 // What is wrong with a cavity, vertex by vertex, measured on the triangles to be delivered.
 #pragma once
 
+#include "core/spatial.h"
 #include "core/triangle_tree.h"
 #include "core/types.h"
 
@@ -12,7 +13,7 @@ struct Inspection {
   /// Distance from the outer surface, see `Clearance`, exact below 0.998 of the wanted wall; n
   /// entries.
   Vector wall;
-  double leastWall = 0.0; ///< likewise; infinity when there is no cavity
+  double leastWall = 0.0; ///< exact; infinity when there is no cavity
   /// Vertices of faces that cross another face, or of a component that is not inside of the outer
   /// surface, is turned inside out or lies in another component; ascending.
   std::vector<int> crossing;
@@ -31,16 +32,13 @@ struct Inspection {
 /// are a wall apart do not cross.
 /// `inner`, `innerFaces`: the cavity, outward oriented as a body of its own. `wall`: wanted
 /// distance, same unit. `outerMoved`: whether the outer surface may cross itself. `foldsFirst`:
-/// where the cavity crosses itself, tell that alone and measure nothing.
+/// where the cavity crosses itself, tell that alone and measure nothing. `memory`: null, or of
+/// inspections against the same outer surface.
 Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleTree& outer,
-                   double wall, bool outerMoved, bool foldsFirst = false);
+                   double wall, bool outerMoved, bool foldsFirst = false,
+                   ClearanceMemory* memory = nullptr);
 
-/// Makes `wall` and `leastWall` exact up to the wanted wall, and the latter beyond. The cavity is
-/// that of the inspection.
-void measureWall(const Points& inner, const Faces& innerFaces, const TriangleTree& outer,
-                 double wall, Inspection& inspection);
-
-/// An inspection of the shell of an open surface (open_surface.h), its wall exact: skin, offset
+/// An inspection of the shell of an open surface (open_surface.h): skin, offset
 /// surface and strips together are free of crossings and bound the material, and the offset
 /// surface, strips apart, keeps the wall from the skin. `positions`: 2n×3, the last n those of the
 /// skin; `wall`, `nearestFace` have 2n entries, the latter faces of the skin, the wall being 0 on

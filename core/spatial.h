@@ -12,21 +12,29 @@ Vector chords(const TriangleTree& surface, const Points& points, const Points& d
 
 struct Clearance {
   /// For every vertex that a face uses: the least distance of the triangles around it from the
-  /// other surface; infinity for other vertices. Below the horizon, and for the least of all, exact
-  /// up to rounding; above it the least over the triangles' corners, and beyond twice the horizon
-  /// up to 5 % more than that.
+  /// other surface; infinity for other vertices. Below the horizon exact up to rounding; above it
+  /// at least the horizon, at most 5 % more than the least over the triangles' corners.
   Vector distance;
-  double least = 0.0;           ///< of all; infinity without faces
+  double least = 0.0;           ///< of all, exact up to rounding; infinity without faces
   std::vector<int> crossing;    ///< faces that cross the other surface, ascending
   std::vector<int> nearestFace; ///< of the other surface, for every vertex; −1 without a face
 };
 
+/// What a measurement against a surface leaves for the next one against the same: what has hardly
+/// moved since needs no second look.
+struct ClearanceMemory {
+  Points vertices;
+  std::vector<int> nearestFace;
+  Faces faces;
+  /// Vertices and faces are at least so far away.
+  Vector vertexBounds, faceBounds;
+};
+
 /// How far a surface is from another one, edges and insides of faces included.
 /// docs/math.md "Measuring the wall"
-/// `findLeast`: if not, the least of all is exact below the horizon only, too: quicker where most
-/// is just beyond it.
+/// `memory`: empty, or of the same vertices at other places and with other faces; then of these.
 Clearance clearanceOf(const Points& vertices, const Faces& faces, const TriangleTree& other,
-                      double horizon, bool findLeast = true);
+                      double horizon, ClearanceMemory* memory = nullptr);
 
 /// The distances alone.
 Vector surfaceDistances(const Points& vertices, const Faces& faces, const Points& otherVertices,

@@ -16,7 +16,7 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 /// Triangles that are looked at together.
-constexpr Eigen::Index kBlock = 64;
+constexpr Eigen::Index kBlock = 24;
 /// Each has an array over all faces, so that there are to be few.
 constexpr Eigen::Index kMostChunks = 16;
 /// Share of the product of two lengths: far above the rounding of a determinant.
@@ -247,11 +247,17 @@ private:
         ++patches.next;
       }
     }
-    // What is left: pairs that no patch has in common.
+    // What is left: pairs that no patch has in common. Most often one patch has the whole block.
+    const int common = patches.of[at(tree_.faceAt(begin))];
+    bool isOfOne = common >= patches.first;
+    for (Eigen::Index i = begin; i < end && isOfOne; ++i) {
+      isOfOne = patches.of[at(tree_.faceAt(i))] == common;
+    }
     tree_.forOverlaps(lower, upper, begin, [&](Eigen::Index i) {
       const int f = tree_.faceAt(i);
       const int patch = patches.of[at(f)];
       const bool isKnown = patch >= patches.first;
+      if (isOfOne && patch == common) return;
       const Vec3 a = point(faces_(f, 0));
       const Vec3 b = point(faces_(f, 1));
       const Vec3 c = point(faces_(f, 2));

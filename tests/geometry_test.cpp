@@ -108,6 +108,41 @@ TEST(SurfaceDistances, HaveTheLeastDistanceOfAnyTwoTriangles) {
   EXPECT_NEAR(distances.minCoeff(), leastDistance(inner, outer), 1e-12);
 }
 
+class RememberedClearance : public ::testing::TestWithParam<double> {};
+
+TEST_P(RememberedClearance, IsThatOfAMeasurementWithoutMemory) {
+  const TriangleMesh other = blob(12);
+  const TriangleTree tree(other.vertices, other.faces);
+  TriangleMesh moving = transformed(blob(5), GetParam() * Mat3::Identity(), {0.01, 0.02, -0.01});
+  const double horizon =
+      1.4 * clearanceOf(moving.vertices, moving.faces, tree, 1.0).distance.minCoeff();
+  ClearanceMemory memory;
+  std::size_t below = 0;
+  // Some vertices move a little, some more, most rest; faces go, and one comes.
+  for (int round = 0; round < 12; ++round) {
+    const Clearance seen = clearanceOf(moving.vertices, moving.faces, tree, horizon, &memory);
+    const Clearance fresh = clearanceOf(moving.vertices, moving.faces, tree, horizon);
+    EXPECT_NEAR(seen.least, fresh.least, 1e-14);
+    for (Eigen::Index v = 0; v < moving.vertices.rows(); ++v) {
+      if (fresh.distance[v] >= horizon) {
+        EXPECT_GE(seen.distance[v], horizon * (1.0 - 1e-12));
+      } else {
+        EXPECT_NEAR(seen.distance[v], fresh.distance[v], 1e-14);
+        ++below;
+      }
+    }
+    for (Eigen::Index v = round; v < moving.vertices.rows(); v += 5) {
+      moving.vertices.row(v) *= 1.0 + (v % 2 == 0 ? 1e-4 : 0.02) * std::sin(static_cast<double>(v));
+    }
+    moving.faces.conservativeResize(moving.faces.rows() - 3, 3);
+    moving.faces.row(7 * round) = moving.faces.row(7 * round).reverse().eval();
+  }
+  EXPECT_GT(below, 60U);
+}
+
+// Inside of the other surface corners are nearest, around it the insides of faces.
+INSTANTIATE_TEST_SUITE_P(Geometry, RememberedClearance, ::testing::Values(0.8, 1.3));
+
 // ---------------------------------------------------------------- exact checks
 
 TEST(SelfIntersectingFaces, AgreeWithTheCheckPairByPair) {
