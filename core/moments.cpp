@@ -26,6 +26,59 @@ SymmetricSix square(const Row3& p) {
   return six;
 }
 
+template <bool WithSecond>
+MomentRates rates(const Points& vertices, const Faces& faces, const Points& directions) {
+  // Reynolds: d/dt ∫q dV = ∫ q λ_a (n·d_a) dA over the triangles at a, λ_a the hat function of a.
+  // With N = (b−a)×(c−a) = 2·area·n and ∫λ_a^i λ_b^j λ_c^k dA = 2·area·i!j!k!/(i+j+k+2)!:
+  // dV = N·d/6, d∫x = N·d (s + a)/24, d∫x xᵀ = N·d (s sᵀ + Σ p pᵀ + a sᵀ + s aᵀ + 2a aᵀ)/120,
+  // where (s+a)(s+a)ᵀ + a aᵀ + Σ p pᵀ is the last bracket.
+  constexpr Eigen::Index kTerms = WithSecond ? 10 : 4;
+  MomentRates result = MomentRates::Zero(vertices.rows(), kTerms);
+  const double* x = vertices.data();
+  const double* d = directions.data();
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    const Eigen::Index v[3] = {faces(f, 0), faces(f, 1), faces(f, 2)};
+    const double* p[3] = {x + 3 * v[0], x + 3 * v[1], x + 3 * v[2]};
+    const double e[3] = {p[1][0] - p[0][0], p[1][1] - p[0][1], p[1][2] - p[0][2]};
+    const double g[3] = {p[2][0] - p[0][0], p[2][1] - p[0][1], p[2][2] - p[0][2]};
+    const double N[3] = {e[1] * g[2] - e[2] * g[1], e[2] * g[0] - e[0] * g[2],
+                         e[0] * g[1] - e[1] * g[0]};
+    const double s[3] = {p[0][0] + p[1][0] + p[2][0], p[0][1] + p[1][1] + p[2][1],
+                         p[0][2] + p[1][2] + p[2][2]};
+    double sum[6] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    for (const double* q : p) {
+      if (!WithSecond) break;
+      sum[0] += q[0] * q[0];
+      sum[1] += q[1] * q[1];
+      sum[2] += q[2] * q[2];
+      sum[3] += q[0] * q[1];
+      sum[4] += q[1] * q[2];
+      sum[5] += q[2] * q[0];
+    }
+    for (int k = 0; k < 3; ++k) {
+      const double* a = p[k];
+      const double* direction = d + 3 * v[k];
+      const double flux = N[0] * direction[0] + N[1] * direction[1] + N[2] * direction[2];
+      const double t[3] = {s[0] + a[0], s[1] + a[1], s[2] + a[2]};
+      const double first = flux / 24.0;
+      double* rate = result.data() + kTerms * v[k];
+      rate[0] += flux / 6.0;
+      rate[1] += first * t[0];
+      rate[2] += first * t[1];
+      rate[3] += first * t[2];
+      if (!WithSecond) continue;
+      const double second = flux / 120.0;
+      rate[4] += second * (sum[0] + t[0] * t[0] + a[0] * a[0]);
+      rate[5] += second * (sum[1] + t[1] * t[1] + a[1] * a[1]);
+      rate[6] += second * (sum[2] + t[2] * t[2] + a[2] * a[2]);
+      rate[7] += second * (sum[3] + t[0] * t[1] + a[0] * a[1]);
+      rate[8] += second * (sum[4] + t[1] * t[2] + a[1] * a[2]);
+      rate[9] += second * (sum[5] + t[2] * t[0] + a[2] * a[0]);
+    }
+  }
+  return result;
+}
+
 } // namespace
 
 Moments moments(const Points& vertices, const Faces& faces) {
@@ -55,53 +108,10 @@ Moments moments(const Points& vertices, const Faces& faces) {
   return result;
 }
 
-MomentRates momentRates(const Points& vertices, const Faces& faces, const Points& directions) {
-  // Reynolds: d/dt ∫q dV = ∫ q λ_a (n·d_a) dA over the triangles at a, λ_a the hat function of a.
-  // With N = (b−a)×(c−a) = 2·area·n and ∫λ_a^i λ_b^j λ_c^k dA = 2·area·i!j!k!/(i+j+k+2)!:
-  // dV = N·d/6, d∫x = N·d (s + a)/24, d∫x xᵀ = N·d (s sᵀ + Σ p pᵀ + a sᵀ + s aᵀ + 2a aᵀ)/120,
-  // where (s+a)(s+a)ᵀ + a aᵀ + Σ p pᵀ is the last bracket.
-  MomentRates rates = MomentRates::Zero(vertices.rows(), 10);
-  const double* x = vertices.data();
-  const double* d = directions.data();
-  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
-    const Eigen::Index v[3] = {faces(f, 0), faces(f, 1), faces(f, 2)};
-    const double* p[3] = {x + 3 * v[0], x + 3 * v[1], x + 3 * v[2]};
-    const double e[3] = {p[1][0] - p[0][0], p[1][1] - p[0][1], p[1][2] - p[0][2]};
-    const double g[3] = {p[2][0] - p[0][0], p[2][1] - p[0][1], p[2][2] - p[0][2]};
-    const double N[3] = {e[1] * g[2] - e[2] * g[1], e[2] * g[0] - e[0] * g[2],
-                         e[0] * g[1] - e[1] * g[0]};
-    const double s[3] = {p[0][0] + p[1][0] + p[2][0], p[0][1] + p[1][1] + p[2][1],
-                         p[0][2] + p[1][2] + p[2][2]};
-    double sum[6] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-    for (const double* q : p) {
-      sum[0] += q[0] * q[0];
-      sum[1] += q[1] * q[1];
-      sum[2] += q[2] * q[2];
-      sum[3] += q[0] * q[1];
-      sum[4] += q[1] * q[2];
-      sum[5] += q[2] * q[0];
-    }
-    for (int k = 0; k < 3; ++k) {
-      const double* a = p[k];
-      const double* direction = d + 3 * v[k];
-      const double flux = N[0] * direction[0] + N[1] * direction[1] + N[2] * direction[2];
-      const double t[3] = {s[0] + a[0], s[1] + a[1], s[2] + a[2]};
-      const double first = flux / 24.0;
-      const double second = flux / 120.0;
-      double* rate = rates.data() + 10 * v[k];
-      rate[0] += flux / 6.0;
-      rate[1] += first * t[0];
-      rate[2] += first * t[1];
-      rate[3] += first * t[2];
-      rate[4] += second * (sum[0] + t[0] * t[0] + a[0] * a[0]);
-      rate[5] += second * (sum[1] + t[1] * t[1] + a[1] * a[1]);
-      rate[6] += second * (sum[2] + t[2] * t[2] + a[2] * a[2]);
-      rate[7] += second * (sum[3] + t[0] * t[1] + a[0] * a[1]);
-      rate[8] += second * (sum[4] + t[1] * t[2] + a[1] * a[2]);
-      rate[9] += second * (sum[5] + t[2] * t[0] + a[2] * a[0]);
-    }
-  }
-  return rates;
+MomentRates momentRates(const Points& vertices, const Faces& faces, const Points& directions,
+                        bool withSecond) {
+  return withSecond ? rates<true>(vertices, faces, directions)
+                    : rates<false>(vertices, faces, directions);
 }
 
 Moments translated(const Moments& moments, const Vec3& shift) {

@@ -8,9 +8,9 @@ namespace massprops {
 /// ∫dV of (1, x, y, z, xx, yy, zz, xy, yz, zx); units: length³, length⁴ (3 of them), length⁵ (6).
 using Moments = Eigen::Matrix<double, 10, 1>;
 
-/// n×10: row i is the rate of the ten moments while vertex i moves with unit speed along its
-/// direction and all others rest.
-using MomentRates = Eigen::Matrix<double, Eigen::Dynamic, 10, Eigen::RowMajor>;
+/// n×10 or n×4: row i is the rate of the moments, all or those of degree 0 and 1, while vertex i
+/// moves with unit speed along its direction and all others rest.
+using MomentRates = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Positive volume for outward orientation. The surface must be closed; the origin should be near
 /// it, for the integrals cancel far away. [Ton05, docs/math.md "Moments"]
@@ -18,7 +18,9 @@ Moments moments(const Points& vertices, const Faces& faces);
 
 /// Exact derivative of `moments` when vertex i moves along row i of `directions` (n×3, any length).
 /// docs/math.md "Derivative of the moments".
-MomentRates momentRates(const Points& vertices, const Faces& faces, const Points& directions);
+/// `withSecond`: with the rates of the moments of degree 2.
+MomentRates momentRates(const Points& vertices, const Faces& faces, const Points& directions,
+                        bool withSecond = true);
 
 /// Moments of the same body moved by `shift`.
 Moments translated(const Moments& moments, const Vec3& shift);

@@ -2,34 +2,67 @@
 
 #include "core/moments.h"
 #include "core/open_surface.h"
+#include "core/parallel.h"
 
 #include <utility>
+#include <vector>
 
 namespace massprops {
 namespace {
 
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+constexpr Eigen::Index kChunk = 2500;
+
 /// Hα at the vertices.
 Vector fieldOf(const OffsetModel& model, const Eigen::Ref<const Vector>& coefficients) {
-  const Vector atBasis = model.basis.functions * coefficients;
+  const auto& functions = model.basis.functions;
+  Vector atBasis(functions.rows());
+  forChunks(atBasis.size(), kChunk, [&](const Chunk& chunk) {
+    const Eigen::Index size = chunk.end - chunk.begin;
+    atBasis.segment(chunk.begin, size).noalias() =
+        functions.middleRows(chunk.begin, size) * coefficients;
+  });
   return model.interpolation != nullptr ? *model.interpolation * atBasis : atBasis;
 }
 
 /// Derivatives by the coefficients of what changes by row i of `rates` per unit of (Hα)_i; k
 /// columns.
 Matrix byCoefficients(const OffsetModel& model, const RowMatrix& rates) {
-  if (model.interpolation == nullptr) return rates.transpose() * model.basis.functions;
-  return model.interpolation->transposeTimes(rates).transpose() * model.basis.functions;
+  const auto& functions = model.basis.functions;
+  const RowMatrix atBasis = model.interpolation != nullptr
+                                ? RowMatrix(model.interpolation->transposeTimes(rates))
+                                : rates;
+  std::vector<Matrix> parts(static_cast<std::size_t>(chunkCount(atBasis.rows(), kChunk)));
+  forChunks(atBasis.rows(), kChunk, [&](const Chunk& chunk) {
+    const Eigen::Index size = chunk.end - chunk.begin;
+    parts[static_cast<std::size_t>(chunk.number)].noalias() =
+        atBasis.middleRows(chunk.begin, size).transpose() * functions.middleRows(chunk.begin, size);
+  });
+  Matrix sum = Matrix::Zero(rates.cols(), functions.cols());
+  for (const Matrix& part : parts) sum += part;
+  return sum;
 }
 
 /// d(moments)/d(coefficients) of a surface whose vertex i moves by sign·φ'_i per unit of (Hα)_i.
-MomentJacobian jacobian(const OffsetModel& model, const MomentRates& rates, const Vector& slopes,
-                        double sign, bool usesInertia) {
-  const Eigen::Index columns = usesInertia ? 10 : 4;
-  const RowMatrix weighted = (sign * slopes).asDiagonal() * rates.leftCols(columns);
+MomentJacobian jacobian(const OffsetModel& model, MomentRates rates, const Vector& slopes,
+                        double sign) {
+  rates.array().colwise() *= sign * slopes.array();
   MomentJacobian result = MomentJacobian::Zero(10, model.basis.functions.cols());
-  result.topRows(columns) = byCoefficients(model, weighted);
+  result.topRows(rates.cols()) = byCoefficients(model, rates);
+  return result;
+}
+
+struct RatedMoments {
+  Moments value;
+  MomentRates rates;
+};
+
+RatedMoments momentsWithRates(const Points& vertices, const Faces& faces, const Points& directions,
+                              bool usesInertia) {
+  RatedMoments result;
+  inParallel([&] { result.value = moments(vertices, faces); },
+             [&] { result.rates = momentRates(vertices, faces, directions, usesInertia); });
   return result;
 }
 
@@ -38,15 +71,14 @@ CavityMoments momentsOf(const OffsetModel& model, const OffsetSurfaces& surfaces
   if (model.isOpen) {
     // The strips and lids have corners on the outer surface, which rest.
     const Eigen::Index n = model.vertices.rows();
-    const Points both = stacked(surfaces.inner, model.vertices);
-    const MomentRates rates =
-        momentRates(both, model.innerFaces, stacked(model.directions, Points::Zero(n, 3)));
-    return {moments(both, model.innerFaces),
-            jacobian(model, rates.topRows(n), surfaces.innerSlopes, -1.0, usesInertia)};
+    const RatedMoments both =
+        momentsWithRates(stacked(surfaces.inner, model.vertices), model.innerFaces,
+                         stacked(model.directions, Points::Zero(n, 3)), usesInertia);
+    return {both.value, jacobian(model, both.rates.topRows(n), surfaces.innerSlopes, -1.0)};
   }
-  return {moments(surfaces.inner, model.innerFaces),
-          jacobian(model, momentRates(surfaces.inner, model.innerFaces, model.directions),
-                   surfaces.innerSlopes, -1.0, usesInertia)};
+  RatedMoments inner =
+      momentsWithRates(surfaces.inner, model.innerFaces, model.directions, usesInertia);
+  return {inner.value, jacobian(model, std::move(inner.rates), surfaces.innerSlopes, -1.0)};
 }
 
 /// Terms 1–3 and 5, while the outer surface stays.
@@ -90,10 +122,11 @@ Evaluation evaluate(const OffsetModel& model, const Goal& goal, const Weights& w
   Evaluation e;
   if (model.outer) {
     const double solidVolume = model.solidMoments[0];
-    const Moments outer = moments(surfaces.outer, model.faces);
+    RatedMoments moved =
+        momentsWithRates(surfaces.outer, model.faces, model.directions, goal.usesInertia());
+    const Moments& outer = moved.value;
     const MomentJacobian outerJacobian =
-        jacobian(model, momentRates(surfaces.outer, model.faces, model.directions),
-                 surfaces.outerSlopes, 1.0, goal.usesInertia());
+        jacobian(model, std::move(moved.rates), surfaces.outerSlopes, 1.0);
     MomentJacobian massJacobian(10, 2 * k);
     massJacobian << (model.fillDensity - 1.0) * inner.jacobian, outerJacobian;
     Vector volumeGradient(2 * k);

@@ -242,6 +242,15 @@ TEST(MomentRates, MatchCentralDifferences) {
   }
 }
 
+TEST(MomentRates, OfTheFirstMomentsAloneAreTheSame) {
+  const TriangleMesh mesh = blob(7);
+  const Points directions = mesh.vertices.rowwise().reverse();
+  const MomentRates all = momentRates(mesh.vertices, mesh.faces, directions);
+  const MomentRates few = momentRates(mesh.vertices, mesh.faces, directions, false);
+  ASSERT_EQ(few.cols(), 4);
+  EXPECT_EQ(few, all.leftCols(4));
+}
+
 TEST(MomentRates, OfARigidTranslationAreTheParallelAxisRule) {
   // d/dt of translated(m, t·d) at t = 0: (0, V d, S dᵀ + d Sᵀ).
   const TriangleMesh mesh = blob(5);
