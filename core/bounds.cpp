@@ -35,13 +35,15 @@ OffsetBounds keepingWall(const Points& vertices, const TriangleTree& surface,
   constexpr Eigen::Index kChunk = 1024;
   const double enough = (1.0 - kWallSlack) * wall;
   forChunks(vertices.rows(), kChunk, [&](const Chunk& chunk) {
+    int hint = -1;
     for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
       double& offset = bounds.lower[v];
       for (int step = 0; step < kMostSteps && offset <= bounds.upper[v]; ++step) {
         // The distance grows by at most the step, so that no step goes too far.
         const Vec3 y = (vertices.row(v) - offset * field.directions.row(v)).transpose();
-        const TriangleTree::Hit hit = surface.nearest(y, enough * enough);
+        const TriangleTree::Hit hit = surface.nearest(y, enough * enough, hint);
         if (hit.face < 0) break;
+        hint = hit.face;
         offset += wall - std::sqrt(hit.squaredDistance);
       }
     }

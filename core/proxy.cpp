@@ -26,6 +26,8 @@ constexpr double kLeastQuality = 0.25;
 /// No component becomes smaller: its shape would be lost.
 constexpr int kLeastVertices = 64;
 constexpr Eigen::Index kChunk = 4096;
+/// A surface of more vertices is thinned out in two halves at once.
+constexpr Eigen::Index kWorthHalving = 16384;
 
 /// Squared distance from planes, weighted with their triangles' areas: xᵀAx + 2bᵀx + c. [GH97]
 struct Quadric {
@@ -64,7 +66,10 @@ public:
     std::iota(parent_.begin(), parent_.end(), 0);
     for (std::size_t h = 0; h < corner_.size(); ++h)
       outgoing_[at(corner_[h])] = static_cast<int>(h);
+    Eigen::Index betweenHalves = 0;
     for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+      if (halfOf(faces(f, 0)) != halfOf(faces(f, 1)) || halfOf(faces(f, 1)) != halfOf(faces(f, 2)))
+        ++betweenHalves;
       const Vec3 a = point(faces(f, 0));
       const Vec3 normal = (point(faces(f, 1)) - a).cross(point(faces(f, 2)) - a);
       const double twiceArea = normal.norm();
@@ -75,11 +80,16 @@ public:
     }
     for (std::size_t v = 0; v < outgoing_.size(); ++v) {
       if (outgoing_[v] < 0) continue;
-      ++alive_;
+      Half& half = halves_[halfOf(static_cast<int>(v))];
+      ++half.alive;
       const auto c = at(component_[v]);
-      if (sizes_.size() <= c) sizes_.resize(c + 1, 0);
-      ++sizes_[c];
+      for (Half& each : halves_) {
+        if (each.sizes.size() <= c) each.sizes.resize(c + 1, 0);
+      }
+      ++half.sizes[c];
     }
+    constexpr Eigen::Index kFew = 20;
+    areHalvesApart_ = kFew * betweenHalves < faces.rows();
   }
 
   /// No vertex goes that is farther than `distance` from the planes of its faces.
@@ -90,22 +100,32 @@ public:
     const double totalArea =
         std::accumulate(quadrics_.begin(), quadrics_.end(), 0.0,
                         [](double sum, const Quadric& q) { return sum + q.area; });
-    const double areaEach = totalArea / static_cast<double>(std::max<Eigen::Index>(alive_, 1));
+    const double areaEach =
+        totalArea / static_cast<double>(std::max<Eigen::Index>(this->size(), 1));
     double threshold = kLengthWeight * areaEach * areaEach;
     constexpr int kMostSweeps = 200;
-    for (int sweep = 0; sweep < kMostSweeps && alive_ > size; ++sweep) {
-      const bool near = alive_ < 3 * size;
-      const Eigen::Index before = alive_;
-      for (std::size_t v = 0; v < outgoing_.size() && alive_ > size; ++v) {
-        if (outgoing_[v] >= 0) tryToRemove(static_cast<int>(v), threshold);
+    for (int sweep = 0; sweep<kMostSweeps&& this->size()> size; ++sweep) {
+      const bool near = this->size() < 3 * size;
+      const Eigen::Index before = this->size();
+      for (Half& half : halves_) half.nextCost = std::numeric_limits<double>::infinity();
+      if (areHalvesApart_ && !near && before > kWorthHalving) {
+        inParallel([&] { thinOut(0, threshold, size / 2); },
+                   [&] { thinOut(1, threshold, size / 2); });
+      } else {
+        for (int v = 0; v < vertexCount() && this->size() > size; ++v) {
+          if (outgoing_[at(v)] >= 0) tryToRemove(v, threshold, halves_[halfOf(v)], false);
+        }
       }
-      // Lengths do not matter any more, and the distances forbid the rest.
-      if (alive_ == before && threshold > totalArea * totalArea) break;
-      threshold *= near ? 1.5 : 3.0;
+      const double nextCost = std::min(halves_[0].nextCost, halves_[1].nextCost);
+      const bool isStuck = this->size() == before;
+      if (isStuck && nextCost == std::numeric_limits<double>::infinity()) break;
+      do {
+        threshold *= near ? 1.5 : 3.0;
+      } while (isStuck && threshold < nextCost);
     }
   }
 
-  Eigen::Index size() const { return alive_; }
+  Eigen::Index size() const { return halves_[0].alive + halves_[1].alive; }
 
   CoarseCopy copy() const {
     CoarseCopy result;
@@ -132,7 +152,18 @@ public:
   Interpolation interpolationFrom(const CoarseCopy& copy);
 
 private:
+  /// Of the vertices, by their numbers, which are near each other in space where the numbers are.
+  struct Half {
+    Eigen::Index alive = 0;
+    std::vector<int> sizes; ///< of the parts of the components in it
+    double nextCost = 0.0;  ///< the least that the present sweep found too high
+    std::vector<int> fan, otherFan;
+    std::vector<std::pair<double, int>> candidates;
+  };
+
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  int vertexCount() const { return static_cast<int>(outgoing_.size()); }
+  std::size_t halfOf(int v) const { return v < vertexCount() / 2 ? 0 : 1; }
   Vec3 point(int v) const { return x_.row(v).transpose(); }
   int to(int h) const { return corner_[at(nextHalfEdge(h))]; }
 
@@ -146,43 +177,68 @@ private:
     } while (h != outgoing_[at(v)]);
   }
 
-  void tryToRemove(int v, double threshold) {
-    if (sizes_[at(component_[at(v)])] <= kLeastVertices) return;
-    collectFan(v, fan_);
+  /// One sweep over a half. What it reads and writes belongs to vertices of this half alone, for
+  /// those with a neighbour in the other one stay: both halves may be thinned out at once.
+  void thinOut(std::size_t number, double threshold, Eigen::Index least) {
+    Half& half = halves_[number];
+    const int middle = vertexCount() / 2;
+    const int begin = number == 0 ? 0 : middle;
+    const int end = number == 0 ? middle : vertexCount();
+    for (int v = begin; v < end && half.alive > least; ++v) {
+      if (outgoing_[at(v)] >= 0) tryToRemove(v, threshold, half, true);
+    }
+  }
+
+  /// `half`: that of v. `staysInHalf`: leave v where a neighbour is of the other one.
+  void tryToRemove(int v, double threshold, Half& half, bool staysInHalf) {
+    const std::size_t component = at(component_[at(v)]);
+    const int others = staysInHalf ? 0 : halves_[1 - halfOf(v)].sizes[component];
+    if (half.sizes[component] + others <= kLeastVertices) return;
+    collectFan(v, half.fan);
+    if (staysInHalf && std::any_of(half.fan.begin(), half.fan.end(),
+                                   [&](int h) { return halfOf(to(h)) != halfOf(v); })) {
+      return;
+    }
     const Quadric& own = quadrics_[at(v)];
-    candidates_.clear();
-    for (const int h : fan_) {
+    half.candidates.clear();
+    for (const int h : half.fan) {
       const Vec3 target = point(to(h));
       const double cost =
           own.at(target) + kLengthWeight * own.area * (target - point(v)).squaredNorm();
-      const bool isNear = own.at(target) <= mostSquared_ * own.area;
-      if (isNear && cost <= threshold) candidates_.emplace_back(cost, h);
+      if (own.at(target) > mostSquared_ * own.area) continue;
+      if (cost <= threshold) {
+        half.candidates.emplace_back(cost, h);
+      } else {
+        half.nextCost = std::min(half.nextCost, cost);
+      }
     }
-    std::sort(candidates_.begin(), candidates_.end());
-    for (const auto& [cost, h] : candidates_) {
-      if (!isLegal(v, h)) continue;
-      collapse(v, h);
+    std::sort(half.candidates.begin(), half.candidates.end());
+    for (const auto& [cost, h] : half.candidates) {
+      if (!isLegal(v, h, half)) continue;
+      collapse(v, h, half.fan);
+      --half.alive;
+      --half.sizes[component];
       return;
     }
   }
 
   /// Whether moving v onto the end of h keeps the surface a manifold [link condition] and turns no
-  /// face over. `fan_` is v's.
-  bool isLegal(int v, int h) {
+  /// face over. `half.fan` is v's.
+  bool isLegal(int v, int h, Half& half) const {
     const int w = to(h);
-    collectFan(w, otherFan_);
+    collectFan(w, half.otherFan);
     int common = 0;
-    for (const int g : fan_) {
+    for (const int g : half.fan) {
       const int u = to(g);
-      for (const int e : otherFan_) common += to(e) == u ? 1 : 0;
+      for (const int e : half.otherFan) common += to(e) == u ? 1 : 0;
     }
-    if (common != 2 || fan_.size() < 4 || otherFan_.size() < 4) return false;
+    if (common != 2 || half.fan.size() < 4 || half.otherFan.size() < 4) return false;
     const int left = to(nextHalfEdge(h));
     const int right = to(nextHalfEdge(opposite_[at(h)]));
     if (valence(left) < 4 || valence(right) < 4) return false;
     const Vec3 target = point(w);
     const Vec3 from = point(v);
-    for (const int g : fan_) {
+    for (const int g : half.fan) {
       const int b = to(g);
       const int c = to(nextHalfEdge(g));
       if (b == w || c == w) continue;
@@ -209,9 +265,9 @@ private:
     return count;
   }
 
-  void collapse(int v, int h) {
+  void collapse(int v, int h, const std::vector<int>& fan) {
     const int w = to(h);
-    for (const int g : fan_) corner_[at(g)] = w;
+    for (const int g : fan) corner_[at(g)] = w;
     for (const int dead : {h, opposite_[at(h)]}) {
       // The face goes; the faces beyond its two other sides become neighbours.
       const int n = nextHalfEdge(dead);
@@ -229,8 +285,6 @@ private:
     outgoing_[at(v)] = -1;
     parent_[at(v)] = w;
     quadrics_[at(w)].add(quadrics_[at(v)]);
-    --alive_;
-    --sizes_[at(component_[at(v)])];
   }
 
   int root(int v) {
@@ -245,11 +299,9 @@ private:
   std::vector<int> corner_, opposite_, outgoing_, parent_;
   std::vector<Quadric> quadrics_;
   std::vector<int> component_;
-  std::vector<int> sizes_;
-  Eigen::Index alive_ = 0;
+  std::array<Half, 2> halves_;
+  bool areHalvesApart_ = false; ///< have few faces in common
   double mostSquared_ = 0.0;
-  std::vector<int> fan_, otherFan_;
-  std::vector<std::pair<double, int>> candidates_;
 };
 
 Interpolation Collapsing::interpolationFrom(const CoarseCopy& copy) {

@@ -15,7 +15,7 @@ constexpr Eigen::Index kChunk = 1024;
 constexpr double kRounding = 1e-12;
 /// With a memory the search goes a little beyond the horizon: so far a face may move before it has
 /// to be looked at again.
-constexpr double kBeyond = 1.003;
+constexpr double kBeyond = 1.001;
 
 /// Radius of the smallest ball around the triangle, squared, given its sides' squares.
 double squaredRadius(double ab, double bc, double ca) {

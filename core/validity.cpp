@@ -17,6 +17,9 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 /// Triangles that are looked at together.
 constexpr Eigen::Index kBlock = 24;
+/// Around a block, in edges: neighbours whose boxes meet those of the block belong to its patch,
+/// too, and need not be compared.
+constexpr double kMargin = 0.25;
 /// Each has an array over all faces, so that there are to be few.
 constexpr Eigen::Index kMostChunks = 16;
 /// Share of the product of two lengths: far above the rounding of a determinant.
@@ -237,8 +240,8 @@ private:
         }
       }
       window.slack = kSafe * (lower.cwiseAbs().cwiseMax(upper.cwiseAbs()).maxCoeff() + edge);
-      window.lower.array() -= edge;
-      window.upper.array() += edge;
+      window.lower.array() -= kMargin * edge;
+      window.upper.array() += kMargin * edge;
       constexpr int kMostPatches = 4;
       for (Eigen::Index i = begin; i < end && patches.next < patches.first + kMostPatches; ++i) {
         const int f = tree_.faceAt(i);
