@@ -62,11 +62,11 @@ Schedule scheduleFor(Eigen::Index vertexCount, int basisSize, bool isCopied) {
   const auto n = static_cast<double>(vertexCount);
   const double moving =
       isCopied ? std::min(n, 0.8 * static_cast<double>(cageFor(basisSize).most)) : n;
-  const double check = 1.7e-6 * n;
-  const double copy = isCopied ? 1e-6 * n : 0.0;
+  const double check = 1.3e-6 * n;
+  const double copy = isCopied ? 8e-7 * n : 0.0;
   const double skeleton = 4e-5 * static_cast<double>(proxySize(vertexCount, basisSize)) + 2e-7 * n;
   const double directions = 5e-6 * moving;
-  const double search = 2.5e-5 * moving + 1e-6 * n;
+  const double search = 2e-5 * moving + 4e-7 * n;
   const double total = check + copy + skeleton + directions + search;
   const auto percent = [&](double seconds) {
     return static_cast<int>(Schedule::kEnd * seconds / total);
