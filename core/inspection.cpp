@@ -80,6 +80,11 @@ Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleT
   return inspection;
 }
 
+void measureWall(const Points& inner, const Faces& innerFaces, const TriangleTree& outer,
+                 double wall, ClearanceMemory* memory, Inspection& inspection) {
+  inspection.wall = clearanceOf(inner, innerFaces, outer, wall, memory).distance;
+}
+
 Inspection inspectShell(const Points& positions, const Faces& cavity, const TriangleTree& skin,
                         double wall) {
   const Eigen::Index n = positions.rows() / 2;
@@ -104,7 +109,7 @@ Inspection inspectShell(const Points& positions, const Faces& cavity, const Tria
   inspection.crossing.erase(std::unique(inspection.crossing.begin(), inspection.crossing.end()),
                             inspection.crossing.end());
 
-  Clearance clearance = clearanceOf(positions, withoutStrips(cavity, n), skin, kHorizon * wall);
+  Clearance clearance = clearanceOf(positions, withoutStrips(cavity, n), skin, wall);
   inspection.wall = std::move(clearance.distance);
   inspection.wall.tail(n).setZero();
   inspection.leastWall = clearance.least;

@@ -38,7 +38,11 @@ Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleT
                    double wall, bool outerMoved, bool foldsFirst = false,
                    ClearanceMemory* memory = nullptr);
 
-/// An inspection of the shell of an open surface (open_surface.h): skin, offset
+/// Makes `wall` exact up to the wanted wall. The cavity and `memory` are those of the inspection.
+void measureWall(const Points& inner, const Faces& innerFaces, const TriangleTree& outer,
+                 double wall, ClearanceMemory* memory, Inspection& inspection);
+
+/// An inspection of the shell of an open surface (open_surface.h), its wall exact: skin, offset
 /// surface and strips together are free of crossings and bound the material, and the offset
 /// surface, strips apart, keeps the wall from the skin. `positions`: 2n×3, the last n those of the
 /// skin; `wall`, `nearestFace` have 2n entries, the latter faces of the skin, the wall being 0 on
