@@ -1,5 +1,6 @@
 #include "property/cases.h"
 
+#include "checks.h"
 #include "property/mesher.h"
 #include "shapes.h"
 
@@ -399,6 +400,13 @@ TriangleMesh rounded(TriangleMesh mesh) {
   return mesh;
 }
 
+bool liesWithin(const TriangleMesh& part, const TriangleMesh& body) {
+  for (const auto& p : part.vertices.rowwise()) {
+    if (windingNumber(body, p.transpose()) < 0.5) return false;
+  }
+  return true;
+}
+
 /// Whether the points on the ground spread in two directions.
 bool hasFoot(const TriangleMesh& mesh, const Vec3& up) {
   const double diagonal = diagonalOf(mesh);
@@ -483,11 +491,12 @@ PropertyCase makeCase(std::uint32_t seed, int number) {
 
   TriangleMesh cavities;
   if (c.family == "cavity") {
-    // The bodies of this family are star-shaped about the middle of what they were before.
+    // Most bodies of this family are star-shaped about the middle; the others stay without.
     const Vec3 middle =
         0.5 * (body.vertices.colwise().maxCoeff() + body.vertices.colwise().minCoeff()).transpose();
     const double share = chance.between(0.1, 0.6);
-    cavities = reversed(transformed(body, share * Mat3::Identity(), (1 - share) * middle));
+    const TriangleMesh small = transformed(body, share * Mat3::Identity(), (1 - share) * middle);
+    if (liesWithin(small, body)) cavities = reversed(small);
   }
 
   // Place: size, distance, precision.
