@@ -20,8 +20,7 @@ Vector fieldOf(const OffsetModel& model, const Eigen::Ref<const Vector>& coeffic
   Vector atBasis(functions.rows());
   forChunks(atBasis.size(), kChunk, [&](const Chunk& chunk) {
     const Eigen::Index size = chunk.end - chunk.begin;
-    atBasis.segment(chunk.begin, size).noalias() =
-        functions.middleRows(chunk.begin, size) * coefficients;
+    atBasis.segment(chunk.begin, size) = functions.middleRows(chunk.begin, size) * coefficients;
   });
   return model.interpolation != nullptr ? *model.interpolation * atBasis : atBasis;
 }
