@@ -93,31 +93,30 @@ public:
   }
 
   /// No vertex goes that is farther than `distance` from the planes of its faces.
-  void reduceTo(Eigen::Index size, double distance = std::numeric_limits<double>::infinity()) {
+  void reduceTo(Eigen::Index wanted, double distance = std::numeric_limits<double>::infinity()) {
     mostSquared_ = distance * distance;
     // Sweeps with rising thresholds: the order of the vertices along a space-filling curve is kept,
     // which is quicker than a queue, and each sweep thins the surface out evenly.
     const double totalArea =
         std::accumulate(quadrics_.begin(), quadrics_.end(), 0.0,
                         [](double sum, const Quadric& q) { return sum + q.area; });
-    const double areaEach =
-        totalArea / static_cast<double>(std::max<Eigen::Index>(this->size(), 1));
+    const double areaEach = totalArea / static_cast<double>(std::max<Eigen::Index>(size(), 1));
     double threshold = kLengthWeight * areaEach * areaEach;
     constexpr int kMostSweeps = 200;
-    for (int sweep = 0; sweep<kMostSweeps&& this->size()> size; ++sweep) {
-      const bool near = this->size() < 3 * size;
-      const Eigen::Index before = this->size();
+    for (int sweep = 0; sweep < kMostSweeps && size() > wanted; ++sweep) {
+      const bool near = size() < 3 * wanted;
+      const Eigen::Index before = size();
       for (Half& half : halves_) half.nextCost = std::numeric_limits<double>::infinity();
       if (areHalvesApart_ && !near && before > kWorthHalving) {
-        inParallel([&] { thinOut(0, threshold, size / 2); },
-                   [&] { thinOut(1, threshold, size / 2); });
+        inParallel([&] { thinOut(0, threshold, wanted / 2); },
+                   [&] { thinOut(1, threshold, wanted / 2); });
       } else {
-        for (int v = 0; v < vertexCount() && this->size() > size; ++v) {
+        for (int v = 0; v < vertexCount() && size() > wanted; ++v) {
           if (outgoing_[at(v)] >= 0) tryToRemove(v, threshold, halves_[halfOf(v)], false);
         }
       }
       const double nextCost = std::min(halves_[0].nextCost, halves_[1].nextCost);
-      const bool isStuck = this->size() == before;
+      const bool isStuck = size() == before;
       if (isStuck && nextCost == std::numeric_limits<double>::infinity()) break;
       do {
         threshold *= near ? 1.5 : 3.0;

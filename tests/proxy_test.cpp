@@ -84,6 +84,37 @@ TEST(CoarseCopy, IsAsCoarseAsTheDistanceAllows) {
   EXPECT_NEAR(fine / coarse, 4.0, 1.0);
 }
 
+TEST(CoarseCopy, IsTheSameWithAnyNumberOfThreads) {
+  // Numbered along the ring, so that both halves are thinned out at once.
+  const TriangleMesh ring = torus(2, 0.5, 400, 100);
+  const auto copy = [&](int threads) {
+    const ThreadCount count(threads);
+    return coarseCopy(ring.vertices, ring.faces, {1500, 1500, 0.0});
+  };
+  const CoarseCopy one = copy(1);
+  EXPECT_EQ(one.mesh.vertices.rows(), 1500);
+  EXPECT_TRUE(isClosedAndOriented(one.mesh));
+  EXPECT_EQ(eulerCharacteristic(one.mesh), 0);
+  for (const int threads : {2, 4}) {
+    const CoarseCopy other = copy(threads);
+    EXPECT_EQ(one.mesh.faces, other.mesh.faces);
+    EXPECT_EQ(one.vertexOf, other.vertexOf);
+  }
+}
+
+TEST(CoarseCopy, HasTheSizeAskedForWhateverTheNumbersOfTheVertices) {
+  // Every vertex has neighbours in the other half.
+  TriangleMesh ring = torus(2, 0.5, 400, 100);
+  const auto n = static_cast<int>(ring.vertices.rows());
+  const auto number = [&](int v) { return v % 2 * (n / 2) + v / 2; };
+  const Points before = ring.vertices;
+  for (int v = 0; v < n; ++v) ring.vertices.row(number(v)) = before.row(v);
+  ring.faces = ring.faces.unaryExpr(number).eval();
+  const CoarseCopy copy = coarseCopy(ring.vertices, ring.faces, {1500, 1500, 0.0});
+  EXPECT_EQ(copy.mesh.vertices.rows(), 1500);
+  EXPECT_EQ(eulerCharacteristic(copy.mesh), 0);
+}
+
 TEST(CoarseCopy, HasFewSliversAlsoOfVeryFineSurfaces) {
   const TriangleMesh fine = blob(150); // 225,000 vertices
   const TriangleMesh copy = coarseCopy(fine.vertices, fine.faces, {3000, 3000, 0.0}).mesh;
