@@ -5,19 +5,22 @@ import numpy as np
 
 import window
 from desktop import wait_for, write_png
-from host import FILTER, SAMPLES, cube, read_ply, report_in, write_ply
+from host import FILTER, SAMPLES, cube, read_ply, refined, report_in, write_ply
 from window import PICTURES, parameters
 
 
 class FilterTest(window.WindowTest):
-    def dinosaur(self):
+    def dinosaur(self, refinements=0):
         """MeshLab looks along -z with y up: turned, the model shows its side."""
         vertices, faces = read_ply(SAMPLES / "toy_dinosaur.ply")
+        for _ in range(refinements):
+            vertices, faces = refined(vertices, faces)
         vertices = vertices[:, [0, 2, 1]] * [1, 1, -1]
         return vertices, write_ply(self.folder / "toy.dinosaur.ply", vertices, faces)
 
     def test_stand(self):
-        vertices, file = self.dinosaur()
+        # So large that there is time to look at the progress bar.
+        vertices, file = self.dinosaur(refinements=2)
         diagonal = np.linalg.norm(np.ptp(vertices, axis=0))
         self.open(file)
         dialog = self.open_filter()
