@@ -46,8 +46,8 @@ MomentRates rates(const Points& vertices, const Faces& faces, const Points& dire
     const double s[3] = {p[0][0] + p[1][0] + p[2][0], p[0][1] + p[1][1] + p[2][1],
                          p[0][2] + p[1][2] + p[2][2]};
     double sum[6] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-    for (const double* q : p) {
-      if (!WithSecond) break;
+    for (int k = 0; WithSecond && k < 3; ++k) {
+      const double* q = p[k];
       sum[0] += q[0] * q[0];
       sum[1] += q[1] * q[1];
       sum[2] += q[2] * q[2];

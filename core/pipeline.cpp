@@ -127,7 +127,7 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   const Workpiece piece = makeWorkpiece(solid, options);
   if (piece.open) requireSensibleForShell(options);
   const TriangleTree surface(piece.vertices, piece.open ? piece.open->skin : piece.faces,
-                             TriangleTree::Order::Spatial, TriangleTree::Planes::Kept);
+                             TriangleTree::Order::Spatial);
 
   const bool needsAll = options.fullResolution || options.outerUpperBound > 0.0 || piece.open;
   const Eigen::Index n = piece.vertices.rows();

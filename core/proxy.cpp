@@ -78,15 +78,14 @@ public:
         quadrics_[at(v)].addPlane(normal / twiceArea, a, twiceArea / 6.0);
       }
     }
-    for (std::size_t v = 0; v < outgoing_.size(); ++v) {
-      if (outgoing_[v] < 0) continue;
-      Half& half = halves_[halfOf(static_cast<int>(v))];
+    const int components =
+        component_.empty() ? 0 : 1 + *std::max_element(component_.begin(), component_.end());
+    for (Half& half : halves_) half.sizes.assign(at(components), 0);
+    for (int v = 0; v < vertexCount(); ++v) {
+      if (outgoing_[at(v)] < 0) continue;
+      Half& half = halves_[halfOf(v)];
       ++half.alive;
-      const auto c = at(component_[v]);
-      for (Half& each : halves_) {
-        if (each.sizes.size() <= c) each.sizes.resize(c + 1, 0);
-      }
-      ++half.sizes[c];
+      ++half.sizes[at(component_[at(v)])];
     }
     constexpr Eigen::Index kFew = 20;
     areHalvesApart_ = kFew * betweenHalves < faces.rows();
@@ -112,7 +111,7 @@ public:
                    [&] { thinOut(1, threshold, wanted / 2); });
       } else {
         for (int v = 0; v < vertexCount() && size() > wanted; ++v) {
-          if (outgoing_[at(v)] >= 0) tryToRemove(v, threshold, halves_[halfOf(v)], false);
+          if (outgoing_[at(v)] >= 0) tryToRemove(v, threshold, false);
         }
       }
       const double nextCost = std::min(halves_[0].nextCost, halves_[1].nextCost);
@@ -179,17 +178,18 @@ private:
   /// One sweep over a half. What it reads and writes belongs to vertices of this half alone, for
   /// those with a neighbour in the other one stay: both halves may be thinned out at once.
   void thinOut(std::size_t number, double threshold, Eigen::Index least) {
-    Half& half = halves_[number];
+    const Half& half = halves_[number];
     const int middle = vertexCount() / 2;
     const int begin = number == 0 ? 0 : middle;
     const int end = number == 0 ? middle : vertexCount();
     for (int v = begin; v < end && half.alive > least; ++v) {
-      if (outgoing_[at(v)] >= 0) tryToRemove(v, threshold, half, true);
+      if (outgoing_[at(v)] >= 0) tryToRemove(v, threshold, true);
     }
   }
 
-  /// `half`: that of v. `staysInHalf`: leave v where a neighbour is of the other one.
-  void tryToRemove(int v, double threshold, Half& half, bool staysInHalf) {
+  /// `staysInHalf`: leave v where a neighbour is of the other half.
+  void tryToRemove(int v, double threshold, bool staysInHalf) {
+    Half& half = halves_[halfOf(v)];
     const std::size_t component = at(component_[at(v)]);
     const int others = staysInHalf ? 0 : halves_[1 - halfOf(v)].sizes[component];
     if (half.sizes[component] + others <= kLeastVertices) return;

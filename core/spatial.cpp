@@ -13,8 +13,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Eigen::Index kChunk = 1024;
 constexpr double kRounding = 1e-12;
-/// With a memory the search goes a little beyond the horizon: so far a face may move before it has
-/// to be looked at again.
+/// The search goes a little beyond the horizon: so far a face may move before the next measurement
+/// has to look at it again.
 constexpr double kBeyond = 1.001;
 
 /// Radius of the smallest ball around the triangle, squared, given its sides' squares.
@@ -61,11 +61,9 @@ private:
 class Measurement {
 public:
   Measurement(const Points& vertices, const Faces& faces, const TriangleTree& other, double horizon,
-              const ClearanceMemory* memory)
+              const ClearanceMemory& memory)
       : x_(vertices), faces_(faces), other_(other), horizon_(horizon),
-        reach_(memory != nullptr ? kBeyond * horizon : horizon),
-        remembered_(memory != nullptr ? *memory : nothing_, vertices),
-        squared_(Vector::Constant(vertices.rows(), kInfinity)),
+        remembered_(memory, vertices), squared_(Vector::Constant(vertices.rows(), kInfinity)),
         vertexBounds_(Vector::Zero(vertices.rows())), faceBounds_(faces.rows()),
         nearestFace_(static_cast<std::size_t>(vertices.rows()), -1) {}
 
@@ -86,7 +84,8 @@ public:
         bound = boundByCorners(f);
         if (bound < horizon_) bound = std::max(bound, remembered_.faceBound(faces_.row(f)));
         if (bound >= horizon_ * (1.0 + kRounding)) continue;
-        const double enough = std::min(leastAtCorners(squared_, f), reach_ * reach_);
+        const double reach = kBeyond * horizon_;
+        const double enough = std::min(leastAtCorners(squared_, f), reach * reach);
         const double found = distanceOf(f, enough);
         bound = std::sqrt(found);
         if (found < enough) {
@@ -231,8 +230,7 @@ private:
   const Points& x_;
   const Faces& faces_;
   const TriangleTree& other_;
-  double horizon_, reach_;
-  const ClearanceMemory nothing_ = {};
+  double horizon_;
   Remembered remembered_;
   Vector squared_;                   ///< distances of the vertices, at most
   Vector vertexBounds_, faceBounds_; ///< distances, at least
@@ -260,7 +258,8 @@ Clearance clearanceOf(const Points& vertices, const Faces& faces, const Triangle
     result.least = kInfinity;
     return result;
   }
-  Measurement measurement(vertices, faces, other, horizon, memory);
+  const ClearanceMemory nothing;
+  Measurement measurement(vertices, faces, other, horizon, memory != nullptr ? *memory : nothing);
   measurement.measureVertices();
   result.crossing = measurement.measureFaces();
   measurement.findLeast();

@@ -225,7 +225,7 @@ std::vector<int> spatialOrder(const Points& vertices, const Faces& faces) {
   return order;
 }
 
-TriangleTree::TriangleTree(const Points& vertices, const Faces& faces, Order order, Planes planes)
+TriangleTree::TriangleTree(const Points& vertices, const Faces& faces, Order order)
     : vertices_(vertices), faces_(faces), leaves_(leafCount(faces.rows())) {
   if (order == Order::Any) order_ = spatialOrder(vertices, faces);
   boxes_.resize(static_cast<std::size_t>(2 * leaves_));
@@ -244,15 +244,6 @@ TriangleTree::TriangleTree(const Points& vertices, const Faces& faces, Order ord
       box.upper[k] = std::max(a.upper[k], b.upper[k]);
     }
   }
-  if (planes == Planes::None) return;
-  planes_.resize(static_cast<std::size_t>(faces.rows()));
-  forChunks(faces.rows(), kChunk, [&](const Chunk& chunk) {
-    for (auto f = static_cast<int>(chunk.begin); f < chunk.end; ++f) {
-      const Vec3 a = corner(f, 0);
-      const Vec3 normal = (corner(f, 1) - a).cross(corner(f, 2) - a).normalized();
-      planes_[static_cast<std::size_t>(f)] = {normal, normal.dot(a)};
-    }
-  });
 }
 
 TriangleTree::Box TriangleTree::boxOf(Eigen::Index begin, Eigen::Index end) const {
@@ -352,17 +343,7 @@ double TriangleTree::squaredDistance(const Vec3& a, const Vec3& b, const Vec3& c
     return sum;
   };
   double least = squaredBound;
-  const auto isBeyondPlaneOf = [&](int f) {
-    if (planes_.empty()) return false;
-    const Plane& plane = planes_[static_cast<std::size_t>(f)];
-    const double ofA = plane.normal.dot(a) - plane.offset;
-    const double ofB = plane.normal.dot(b) - plane.offset;
-    const double ofC = plane.normal.dot(c) - plane.offset;
-    const double away = std::max(std::min({ofA, ofB, ofC}), -std::max({ofA, ofB, ofC}));
-    return away > 0.0 && away * away * (1.0 - 1e-12) > least;
-  };
   const auto visit = [&](int f) {
-    if (isBeyondPlaneOf(f)) return;
     const Vec3 t[3] = {corner(f, 0), corner(f, 1), corner(f, 2)};
     if (isFartherAlong(normal, s, t, least) ||
         isFartherAlong((t[1] - t[0]).cross(t[2] - t[0]), s, t, least)) {

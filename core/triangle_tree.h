@@ -21,10 +21,7 @@ public:
     Any,     ///< the faces come in any order
     Spatial, ///< they come in the order of `spatialOrder`, or nearly so
   };
-  /// Whether the planes of the triangles are kept: makes `squaredDistance` quicker.
-  enum class Planes { None, Kept };
-  TriangleTree(const Points& vertices, const Faces& faces, Order order = Order::Any,
-               Planes planes = Planes::None);
+  TriangleTree(const Points& vertices, const Faces& faces, Order order = Order::Any);
 
   const Points& vertices() const { return vertices_; }
   const Faces& faces() const { return faces_; }
@@ -88,11 +85,6 @@ private:
   std::vector<int> order_;  ///< empty: as given
   Eigen::Index leaves_ = 1; ///< a power of two
   std::vector<Box> boxes_;  ///< children of i: 2i, 2i + 1; the root is 1
-  struct Plane {
-    Vec3 normal; ///< unit; zero for a triangle without area
-    double offset;
-  };
-  std::vector<Plane> planes_;
 };
 
 /// The point of the triangle (a, b, c) next to p, by its weights at the corners. [Eri05,

@@ -252,15 +252,15 @@ private:
     }
     // What is left: pairs that no patch has in common. Most often one patch has the whole block.
     const int common = patches.of[at(tree_.faceAt(begin))];
-    bool isOfOne = common >= patches.first;
-    for (Eigen::Index i = begin; i < end && isOfOne; ++i) {
-      isOfOne = patches.of[at(tree_.faceAt(i))] == common;
+    bool isOnePatch = common >= patches.first;
+    for (Eigen::Index i = begin; i < end && isOnePatch; ++i) {
+      isOnePatch = patches.of[at(tree_.faceAt(i))] == common;
     }
     tree_.forOverlaps(lower, upper, begin, [&](Eigen::Index i) {
       const int f = tree_.faceAt(i);
       const int patch = patches.of[at(f)];
       const bool isKnown = patch >= patches.first;
-      if (isOfOne && patch == common) return;
+      if (isOnePatch && patch == common) return;
       const Vec3 a = point(faces_(f, 0));
       const Vec3 b = point(faces_(f, 1));
       const Vec3 c = point(faces_(f, 2));
