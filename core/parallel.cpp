@@ -1,7 +1,11 @@
 #include "core/parallel.h"
 
 #include <atomic>
-#include <future>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <system_error>
 #include <thread>
 
 namespace massprops {
@@ -18,7 +22,125 @@ std::atomic<int>& threads() {
   return count;
 }
 
+/// Waits without sleeping, for a while: falling asleep and waking up takes as long as many a loop.
+template <class Condition>
+void waitAwake(const Condition& isReady) {
+  constexpr std::chrono::microseconds kPatience{100};
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (!isReady() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+}
+
+/// What helpers call once each.
+struct Task {
+  const std::function<void()>& run;
+  int wanted; ///< helpers that may still join
+  std::atomic<int> helping = 0;
+  std::exception_ptr failure = nullptr;
+};
+
 } // namespace
+
+class ThreadTeam::Crew {
+public:
+  explicit Crew(int helpers) {
+    try {
+      for (int i = 0; i < helpers; ++i) helpers_.emplace_back([this] { help(); });
+    } catch (const std::system_error&) {
+      // No more threads are to be had: fewer will do.
+    }
+  }
+  ~Crew() {
+    {
+      const std::lock_guard lock(mutex_);
+      isOver_ = true;
+    }
+    called_.notify_all();
+    for (std::thread& helper : helpers_) helper.join();
+  }
+  Crew(const Crew&) = delete;
+  Crew& operator=(const Crew&) = delete;
+
+  /// Calls `own`, while up to `wanted` helpers call `others`; ends when all have ended, whatever
+  /// they throw. Returns how many helped.
+  int share(const std::function<void()>& own, const std::function<void()>& others, int wanted) {
+    const int helpers = std::min(wanted, static_cast<int>(helpers_.size()));
+    Task task{others, helpers};
+    if (helpers > 0) {
+      const std::lock_guard lock(mutex_);
+      tasks_.push_back(&task);
+      ++open_;
+    }
+    called_.notify_all();
+    std::exception_ptr failure;
+    try {
+      own();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    {
+      const std::lock_guard lock(mutex_);
+      close(task);
+    }
+    waitAwake([&] { return task.helping == 0; });
+    std::unique_lock lock(mutex_);
+    done_.wait(lock, [&] { return task.helping == 0; });
+    if (failure || task.failure) std::rethrow_exception(failure ? failure : task.failure);
+    return helpers - task.wanted;
+  }
+
+private:
+  /// No more helpers. \pre the lock is held
+  void close(const Task& task) {
+    const auto place = std::find(tasks_.begin(), tasks_.end(), &task);
+    if (place == tasks_.end()) return;
+    tasks_.erase(place);
+    --open_;
+  }
+
+  void help() {
+    while (true) {
+      waitAwake([&] { return open_ > 0 || isOver_; });
+      std::unique_lock lock(mutex_);
+      called_.wait(lock, [&] { return !tasks_.empty() || isOver_; });
+      if (isOver_) return;
+      Task& task = *tasks_.front();
+      ++task.helping;
+      if (--task.wanted == 0) close(task);
+      lock.unlock();
+      std::exception_ptr failure;
+      try {
+        task.run();
+      } catch (...) {
+        failure = std::current_exception();
+      }
+      lock.lock();
+      if (failure) task.failure = failure;
+      --task.helping;
+      done_.notify_all();
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable called_, done_;
+  std::vector<Task*> tasks_;  ///< that want helpers
+  std::atomic<int> open_ = 0; ///< as many
+  std::atomic<bool> isOver_ = false;
+  std::vector<std::thread> helpers_;
+};
+
+namespace {
+thread_local ThreadTeam::Crew* present = nullptr;
+} // namespace
+
+ThreadTeam::ThreadTeam() : before_(present) {
+  if (present != nullptr || threadCount() == 1) return;
+  crew_ = std::make_unique<Crew>(threadCount() - 1);
+  present = crew_.get();
+}
+
+ThreadTeam::~ThreadTeam() {
+  present = before_;
+}
 
 int threadCount() {
   return threads();
@@ -31,19 +153,27 @@ void setThreadCount(int count) {
 void forChunks(Eigen::Index count, Eigen::Index length,
                const std::function<void(const Chunk&)>& body) {
   const Eigen::Index chunks = chunkCount(count, length);
-  std::atomic<Eigen::Index> next = 0;
-  const auto work = [&] {
-    for (Eigen::Index c = next++; c < chunks; c = next++) {
-      body({c * length, std::min(count, (c + 1) * length), c});
+  const auto call = [&](Eigen::Index c) {
+    body({c * length, std::min(count, (c + 1) * length), c});
+  };
+  const auto workers = static_cast<int>(std::min<Eigen::Index>(threadCount(), chunks));
+  if (workers <= 1) {
+    for (Eigen::Index c = 0; c < chunks; ++c) call(c);
+    return;
+  }
+  // Everyone begins with the chunks that it had in loops of other lengths, for what they are about
+  // is in its cache.
+  std::vector<std::atomic<bool>> isTaken(static_cast<std::size_t>(chunks));
+  const auto work = [&](int worker) {
+    const Eigen::Index first = worker * chunks / workers;
+    for (Eigen::Index i = 0; i < chunks; ++i) {
+      const Eigen::Index c = (first + i) % chunks;
+      if (!isTaken[static_cast<std::size_t>(c)].exchange(true)) call(c);
     }
   };
-  std::vector<std::future<void>> others;
-  for (Eigen::Index t = 1; t < std::min<Eigen::Index>(threadCount(), chunks); ++t) {
-    others.push_back(std::async(std::launch::async, work));
-  }
-  // The futures of std::async wait in their destructors, should this throw.
-  work();
-  for (std::future<void>& other : others) other.get();
+  std::atomic<int> helpers = 0;
+  const ThreadTeam team;
+  present->share([&] { work(0); }, [&] { work(++helpers); }, workers - 1);
 }
 
 void inParallel(const std::function<void()>& first, const std::function<void()>& second) {
@@ -52,9 +182,8 @@ void inParallel(const std::function<void()>& first, const std::function<void()>&
     second();
     return;
   }
-  std::future<void> other = std::async(std::launch::async, first);
-  second();
-  other.get();
+  const ThreadTeam team;
+  if (present->share(second, first, 1) == 0) first();
 }
 
 } // namespace massprops

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <memory>
 #include <vector>
 
 namespace massprops {
@@ -13,6 +14,22 @@ namespace massprops {
 /// most 8. For tests: no result depends on it.
 int threadCount();
 void setThreadCount(int count);
+
+/// Threads that stay awake between the loops of the thread that made it, while it lives. Without
+/// one, each loop starts and ends its own.
+class ThreadTeam {
+public:
+  ThreadTeam();
+  ~ThreadTeam();
+  ThreadTeam(const ThreadTeam&) = delete;
+  ThreadTeam& operator=(const ThreadTeam&) = delete;
+
+  class Crew;
+
+private:
+  std::unique_ptr<Crew> crew_; ///< none where there is a team already
+  Crew* before_;
+};
 
 /// A part of a loop: indices begin…end−1; `number` counts the parts from 0.
 struct Chunk {

@@ -119,6 +119,7 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
     if (progress) progress(percent, stage);
   };
   const Stopwatch total;
+  const ThreadTeam team;
   Stages stages;
 
   tell(0, "Checking the model");

@@ -9,6 +9,7 @@
 #include "core/pipeline.h"
 #include "core/validity.h"
 #include "shapes.h"
+#include "thread_count.h"
 
 #include <gtest/gtest.h>
 
@@ -19,18 +20,6 @@
 
 namespace massprops::testing {
 namespace {
-
-/// More threads than cores, and back.
-class ThreadCount {
-public:
-  explicit ThreadCount(int count) : before_(threadCount()) { setThreadCount(count); }
-  ~ThreadCount() { setThreadCount(before_); }
-  ThreadCount(const ThreadCount&) = delete;
-  ThreadCount& operator=(const ThreadCount&) = delete;
-
-private:
-  int before_;
-};
 
 Eigen::Index eulerCharacteristic(const TriangleMesh& mesh) {
   return mesh.vertices.rows() - mesh.faces.rows() / 2; // closed: 3 faces have 2 edges each
