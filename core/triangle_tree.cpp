@@ -70,6 +70,13 @@ float above(double x) {
   return -below(-x);
 }
 
+/// Boxes of floats have four entries.
+Eigen::Array4f asFloats(const Vec3& p) {
+  Eigen::Array4f floats = Eigen::Array4f::Zero();
+  floats.head<3>() = p.cast<float>().array();
+  return floats;
+}
+
 Vec3 nearestOnTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 w = nearestWeights(p, a, b, c);
   return w[0] * a + w[1] * b + w[2] * c;
@@ -239,11 +246,12 @@ TriangleTree::TriangleTree(const Points& vertices, const Faces& faces, Order ord
     const Box& a = boxes_[static_cast<std::size_t>(2 * node)];
     const Box& b = boxes_[static_cast<std::size_t>(2 * node + 1)];
     Box& box = boxes_[static_cast<std::size_t>(node)];
-    for (int k = 0; k < 3; ++k) {
-      box.lower[k] = std::min(a.lower[k], b.lower[k]);
-      box.upper[k] = std::max(a.upper[k], b.upper[k]);
-    }
+    box.lower = a.lower.min(b.lower);
+    box.upper = a.upper.max(b.upper);
   }
+  constexpr float kUnits = 8.0F;
+  rounding_ = kUnits * std::numeric_limits<float>::epsilon() *
+              std::max(boxes_[1].lower.abs().maxCoeff(), boxes_[1].upper.abs().maxCoeff());
 }
 
 TriangleTree::Box TriangleTree::boxOf(Eigen::Index begin, Eigen::Index end) const {
@@ -256,21 +264,12 @@ TriangleTree::Box TriangleTree::boxOf(Eigen::Index begin, Eigen::Index end) cons
       upper = upper.cwiseMax(p);
     }
   }
-  Box box{};
+  Box box{Eigen::Array4f::Zero(), Eigen::Array4f::Zero()};
   for (int k = 0; k < 3; ++k) {
     box.lower[k] = below(lower[k]);
     box.upper[k] = above(upper[k]);
   }
   return box;
-}
-
-double TriangleTree::squaredDistanceTo(const Box& box, const Vec3& p) const {
-  double sum = 0.0;
-  for (int k = 0; k < 3; ++k) {
-    const double outside = std::max({0.0, box.lower[k] - p[k], p[k] - box.upper[k]});
-    sum += outside * outside;
-  }
-  return sum;
 }
 
 template <class Distance, class Reach, class Visit>
@@ -314,11 +313,9 @@ TriangleTree::Hit TriangleTree::nearest(const Vec3& p, double squaredBound, int 
         distance > squaredExact ? std::max(squaredExact, distance / (kSlack * kSlack)) : distance;
   };
   if (hintFace >= 0) visit(hintFace);
-  visitNearest(
-      [&](Eigen::Index node) {
-        return squaredDistanceTo(boxes_[static_cast<std::size_t>(node)], p);
-      },
-      [&] { return reach; }, visit);
+  const Eigen::Array4f at = asFloats(p);
+  visitNearest([&](Eigen::Index node) { return squaredGap(node, at, at); }, [&] { return reach; },
+               visit);
   return best;
 }
 
@@ -331,17 +328,8 @@ double TriangleTree::squaredDistance(const Vec3& a, const Vec3& b, const Vec3& c
                                      double squaredBound) const {
   const Vec3 s[3] = {a, b, c};
   const Vec3 normal = (b - a).cross(c - a);
-  const Vec3 lower = a.cwiseMin(b).cwiseMin(c);
-  const Vec3 upper = a.cwiseMax(b).cwiseMax(c);
-  const auto gap = [&](Eigen::Index node) {
-    const Box& box = boxes_[static_cast<std::size_t>(node)];
-    double sum = 0.0;
-    for (int k = 0; k < 3; ++k) {
-      const double outside = std::max({0.0, box.lower[k] - upper[k], lower[k] - box.upper[k]});
-      sum += outside * outside;
-    }
-    return sum;
-  };
+  const Eigen::Array4f lower = asFloats(a.cwiseMin(b).cwiseMin(c));
+  const Eigen::Array4f upper = asFloats(a.cwiseMax(b).cwiseMax(c));
   double least = squaredBound;
   const auto visit = [&](int f) {
     const Vec3 t[3] = {corner(f, 0), corner(f, 1), corner(f, 2)};
@@ -356,8 +344,8 @@ double TriangleTree::squaredDistance(const Vec3& a, const Vec3& b, const Vec3& c
     }
     least = std::min(least, squaredDistanceOfTriangles(s, t));
   };
-  visitNearest(
-      gap, [&] { return least; }, visit);
+  visitNearest([&](Eigen::Index node) { return squaredGap(node, lower, upper); },
+               [&] { return least; }, visit);
   return least;
 }
 

@@ -26,8 +26,8 @@ public:
   const Points& vertices() const { return vertices_; }
   const Faces& faces() const { return faces_; }
   /// Corners of a box around the triangles.
-  Vec3 lower() const { return Eigen::Map<const Eigen::Vector3f>(boxes_[1].lower).cast<double>(); }
-  Vec3 upper() const { return Eigen::Map<const Eigen::Vector3f>(boxes_[1].upper).cast<double>(); }
+  Vec3 lower() const { return boxes_[1].lower.head<3>().cast<double>(); }
+  Vec3 upper() const { return boxes_[1].upper.head<3>().cast<double>(); }
 
   struct Hit {
     double squaredDistance = std::numeric_limits<double>::infinity();
@@ -68,15 +68,23 @@ public:
   }
 
 private:
+  /// Four floats each, the last one 0: a distance takes one instruction a step.
   struct Box {
-    float lower[3], upper[3];
+    Eigen::Array4f lower, upper;
   };
   /// Calls visit(face) for the triangles in boxes of which `distance`(node) is below `reach`(), the
   /// nearer ones first; a visit may bring the reach down.
   template <class Distance, class Reach, class Visit>
   void visitNearest(const Distance& distance, const Reach& reach, const Visit& visit) const;
   Eigen::Index firstPlace(Eigen::Index leaf) const { return leaf * faces_.rows() / leaves_; }
-  double squaredDistanceTo(const Box& box, const Vec3& p) const;
+  /// Not more than the squared distance of a node's box from the box lower…upper.
+  double squaredGap(Eigen::Index node, const Eigen::Array4f& lower,
+                    const Eigen::Array4f& upper) const {
+    const Box& box = boxes_[static_cast<std::size_t>(node)];
+    const Eigen::Array4f outside = (box.lower - upper).max(lower - box.upper) - rounding_;
+    const float sum = outside.max(0.0F).square().sum();
+    return kRounded * static_cast<double>(std::min(sum, std::numeric_limits<float>::max()));
+  }
   Box boxOf(Eigen::Index begin, Eigen::Index end) const;
   Vec3 corner(int face, int k) const { return vertices_.row(faces_(face, k)).transpose(); }
 
@@ -85,6 +93,9 @@ private:
   std::vector<int> order_;  ///< empty: as given
   Eigen::Index leaves_ = 1; ///< a power of two
   std::vector<Box> boxes_;  ///< children of i: 2i, 2i + 1; the root is 1
+  /// More than the sum of what the coordinates lose as floats.
+  float rounding_ = 0.0F;
+  static constexpr double kRounded = 1.0 - 1e-6;
 };
 
 /// The point of the triangle (a, b, c) next to p, by its weights at the corners. [Eri05,

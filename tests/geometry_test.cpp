@@ -18,6 +18,8 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <random>
+#include <utility>
 #include <vector>
 
 namespace massprops::testing {
@@ -80,6 +82,37 @@ TEST(Chords, ThroughABallHaveTheLengthOfTheChord) {
                std::numeric_limits<double>::infinity())
                   .all()); // outwards nothing is hit
 }
+
+class NearestPoint : public ::testing::TestWithParam<std::pair<double, Vec3>> {};
+
+TEST_P(NearestPoint, IsThatOfAllTriangles) {
+  const auto [size, origin] = GetParam();
+  const TriangleMesh mesh = transformed(blob(6), size * Mat3::Identity(), origin);
+  const TriangleTree tree(mesh.vertices, mesh.faces);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(-2.0, 2.0);
+  for (int i = 0; i < 200; ++i) {
+    const double far = i % 10 == 0 ? 1e6 : 1.0;
+    const Vec3 p = origin + far * size * Vec3(place(random), place(random), place(random));
+    double least = std::numeric_limits<double>::infinity();
+    for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
+      least = std::min(least, tree.squaredDistance(p, static_cast<int>(f)));
+    }
+    const TriangleTree::Hit hit = tree.nearest(p);
+    ASSERT_GE(hit.face, 0);
+    EXPECT_EQ(hit.squaredDistance, least);
+    EXPECT_EQ(tree.nearest(p, least).face, -1) << "nothing is nearer";
+    EXPECT_EQ(tree.nearest(p, least * (1.0 + 1e-14)).squaredDistance, least);
+  }
+}
+
+// Boxes are floats, which are exhausted by squares of such lengths and by such origins.
+INSTANTIATE_TEST_SUITE_P(Sizes, NearestPoint,
+                         ::testing::Values(std::pair(1.0, Vec3(0, 0, 0)),
+                                           std::pair(1e25, Vec3(0, 0, 0)),
+                                           std::pair(1e-25, Vec3(0, 0, 0)),
+                                           std::pair(1.0, Vec3(1e5, -3e6, 0)),
+                                           std::pair(1e-3, Vec3(0, 0, 1e5))));
 
 TEST(SurfaceDistances, OfConcentricBoxesAreTheirGap) {
   const TriangleMesh outer = box({1.2, 1.4, 1.6}, 2);
