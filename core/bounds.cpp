@@ -79,7 +79,7 @@ OffsetBounds outerBounds(const Points& vertices, const OffsetField& field, doubl
 
 BoundedOffsets boundMap(const OffsetBounds& bounds, const Vector& t) {
   BoundedOffsets result{Vector(t.size()), Vector(t.size())};
-  constexpr Eigen::Index kChunk = 32768;
+  constexpr Eigen::Index kChunk = 2048;
   forChunks(t.size(), kChunk, [&](const Chunk& chunk) {
     for (Eigen::Index i = chunk.begin; i < chunk.end; ++i) {
       const double centre = 0.5 * (bounds.upper[i] + bounds.lower[i]);

@@ -8,7 +8,7 @@ namespace massprops {
 
 struct HarmonicBasis {
   /// n×k, column j is the j-th harmonic γ_j; L γ = λ M γ and HᵀMH = 1. The first is constant.
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> functions;
+  RowMatrix functions;
   /// The k lowest eigenvalues, ascending; the first is 0 up to rounding.
   Vector eigenvalues;
 };

@@ -10,7 +10,7 @@ using Moments = Eigen::Matrix<double, 10, 1>;
 
 /// n×10 or n×4: row i is the rate of the moments, all or those of degree 0 and 1, while vertex i
 /// moves with unit speed along its direction and all others rest.
-using MomentRates = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using MomentRates = RowMatrix;
 
 /// Positive volume for outward orientation. The surface must be closed; the origin should be near
 /// it, for the integrals cancel far away. [Ton05, docs/math.md "Moments"]

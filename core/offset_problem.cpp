@@ -10,9 +10,7 @@
 namespace massprops {
 namespace {
 
-using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-constexpr Eigen::Index kChunk = 2500;
+constexpr Eigen::Index kChunk = 1024;
 
 /// Hα at the vertices.
 Vector fieldOf(const OffsetModel& model, const Eigen::Ref<const Vector>& coefficients) {
@@ -29,9 +27,8 @@ Vector fieldOf(const OffsetModel& model, const Eigen::Ref<const Vector>& coeffic
 /// columns.
 Matrix byCoefficients(const OffsetModel& model, const RowMatrix& rates) {
   const auto& functions = model.basis.functions;
-  const RowMatrix atBasis = model.interpolation != nullptr
-                                ? RowMatrix(model.interpolation->transposeTimes(rates))
-                                : rates;
+  const RowMatrix atBasis =
+      model.interpolation != nullptr ? model.interpolation->transposeTimes(rates) : rates;
   std::vector<Matrix> parts(static_cast<std::size_t>(chunkCount(atBasis.rows(), kChunk)));
   forChunks(atBasis.rows(), kChunk, [&](const Chunk& chunk) {
     const Eigen::Index size = chunk.end - chunk.begin;
@@ -59,10 +56,7 @@ struct RatedMoments {
 
 RatedMoments momentsWithRates(const Points& vertices, const Faces& faces, const Points& directions,
                               bool usesInertia) {
-  RatedMoments result;
-  inParallel([&] { result.value = moments(vertices, faces); },
-             [&] { result.rates = momentRates(vertices, faces, directions, usesInertia); });
-  return result;
+  return {moments(vertices, faces), momentRates(vertices, faces, directions, usesInertia)};
 }
 
 CavityMoments momentsOf(const OffsetModel& model, const OffsetSurfaces& surfaces,

@@ -373,7 +373,7 @@ Interpolation Interpolation::identity(Eigen::Index size) {
 Vector Interpolation::operator*(const Vector& values) const {
   if (isIdentity()) return values;
   Vector result(rows_);
-  forChunks(rows_, 8 * kChunk, [&](const Chunk& chunk) {
+  forChunks(rows_, kChunk, [&](const Chunk& chunk) {
     for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
       result[v] = weights_(v, 0) * values[corners_(v, 0)] +
                   weights_(v, 1) * values[corners_(v, 1)] + weights_(v, 2) * values[corners_(v, 2)];
@@ -385,7 +385,7 @@ Vector Interpolation::operator*(const Vector& values) const {
 Points Interpolation::operator*(const Points& values) const {
   if (isIdentity()) return values;
   Points result(rows_, 3);
-  forChunks(rows_, 8 * kChunk, [&](const Chunk& chunk) {
+  forChunks(rows_, kChunk, [&](const Chunk& chunk) {
     for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
       result.row(v) = weights_(v, 0) * values.row(corners_(v, 0)) +
                       weights_(v, 1) * values.row(corners_(v, 1)) +
@@ -395,24 +395,40 @@ Points Interpolation::operator*(const Points& values) const {
   return result;
 }
 
-Matrix Interpolation::transposeTimes(
-    const Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>&
-        values) const {
+template <int Columns>
+void Interpolation::addTransposed(const Eigen::Ref<const RowMatrix>& values, const Chunk& chunk,
+                                  RowMatrix& sum) const {
+  using Row = Eigen::Matrix<double, 1, Columns>;
+  for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
+    const Eigen::Map<const Row> value(values.row(v).data(), values.cols());
+    for (int k = 0; k < 3; ++k) {
+      Eigen::Map<Row>(sum.row(corners_(v, k)).data(), sum.cols()) += weights_(v, k) * value;
+    }
+  }
+}
+
+RowMatrix Interpolation::transposeTimes(const Eigen::Ref<const RowMatrix>& values) const {
   if (isIdentity()) return values;
   // One sum a chunk, for the sums of two threads must not depend on who comes first.
-  const Eigen::Index length = std::max<Eigen::Index>(8 * kChunk, chunkCount(rows_, 16));
-  using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const Eigen::Index length = std::max<Eigen::Index>(kChunk / 2, chunkCount(rows_, 4));
   std::vector<RowMatrix> parts(static_cast<std::size_t>(chunkCount(rows_, length)));
   forChunks(rows_, length, [&](const Chunk& chunk) {
     RowMatrix& part = parts[static_cast<std::size_t>(chunk.number)];
     part.setZero(cols_, values.cols());
-    for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
-      for (int k = 0; k < 3; ++k) part.row(corners_(v, k)) += weights_(v, k) * values.row(v);
+    // Rows of known length take half the time.
+    switch (values.cols()) {
+    case 4:
+      addTransposed<4>(values, chunk, part);
+      break;
+    case 10:
+      addTransposed<10>(values, chunk, part);
+      break;
+    default:
+      addTransposed<Eigen::Dynamic>(values, chunk, part);
     }
   });
-  Matrix sum = Matrix::Zero(cols_, values.cols());
-  for (const RowMatrix& part : parts) sum += part;
-  return sum;
+  for (std::size_t i = 1; i < parts.size(); ++i) parts[0] += parts[i];
+  return std::move(parts[0]);
 }
 
 CoarseCopy coarseCopy(const Points& vertices, const Faces& faces, const Coarseness& wanted) {
