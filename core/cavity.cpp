@@ -1,12 +1,14 @@
 #include "core/cavity.h"
 
+#include "core/parallel.h"
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/border.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/Surface_mesh.h>
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 namespace massprops {
 namespace {
@@ -103,87 +105,113 @@ void markSmallPieces(const Faces& faces, const VertexCorners& corners, std::vect
   }
 }
 
-/// Triangles that close the holes of the kept faces; empty when a hole cannot be closed without
-/// doubling an edge: its border is then marked solid.
-std::optional<std::vector<int>> caps(const Points& vertices, const Faces& faces,
-                                     const VertexCorners& corners, std::vector<char>& solid) {
+/// The vertices around each hole, in the sense of the faces that are left out. \pre regular marks
+std::vector<std::vector<int>> holes(const Faces& faces, const VertexCorners& corners,
+                                    const std::vector<char>& solid) {
   const int* corner = faces.data();
-  // The kept faces around the borders are all that closing a hole has to know.
+  const auto isKeptBeyond = [&](int from, int to) {
+    const IndexRange all = corners.at(to);
+    return std::any_of(all.begin(), all.end(), [&](int c) {
+      return corner[nextHalfEdge(c)] == from && !touches(faces, c / 3, solid);
+    });
+  };
+  // Every border vertex has one fan of kept faces, and so one border edge that leaves it.
+  std::vector<int> after(solid.size(), -1);
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const int from = faces(f, (k + 1) % 3);
+      const int to = faces(f, (k + 2) % 3);
+      const bool isOutside = solid[at(faces(f, k))] != 0 && solid[at(from)] == 0;
+      if (isOutside && solid[at(to)] == 0 && isKeptBeyond(from, to)) after[at(from)] = to;
+    }
+  }
+  std::vector<std::vector<int>> loops;
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const int first = faces(f, (k + 1) % 3);
+      if (after[at(first)] != faces(f, k)) continue;
+      loops.emplace_back();
+      for (int v = first; after[at(v)] >= 0;) {
+        loops.back().push_back(v);
+        v = std::exchange(after[at(v)], -1);
+      }
+    }
+  }
+  return loops;
+}
+
+/// Triangles that close a hole, three corners each; none when it cannot be closed without doubling
+/// an edge.
+std::vector<int> cap(const Points& vertices, const Faces& faces, const VertexCorners& corners,
+                     const std::vector<char>& solid, const std::vector<int>& loop) {
+  // The kept faces around its border are all that closing a hole has to know.
   std::vector<Eigen::Index> near;
-  for (std::size_t v = 0; v < solid.size(); ++v) {
-    if (solid[v] != 0) continue;
-    const IndexRange all = corners.at(static_cast<Eigen::Index>(v));
-    const bool isBorder = std::any_of(
-        all.begin(), all.end(), [&](int c) { return solid[at(corner[nextHalfEdge(c)])] != 0; });
-    if (!isBorder) continue;
-    for (const int c : all) {
+  for (const int v : loop) {
+    for (const int c : corners.at(v)) {
       if (!touches(faces, c / 3, solid)) near.push_back(c / 3);
     }
   }
   std::sort(near.begin(), near.end());
   near.erase(std::unique(near.begin(), near.end()), near.end());
-
-  Mesh mesh;
   std::vector<int> vertexOf;
   for (const Eigen::Index f : near) {
     for (const int v : faces.row(f)) vertexOf.push_back(v);
   }
   std::sort(vertexOf.begin(), vertexOf.end());
   vertexOf.erase(std::unique(vertexOf.begin(), vertexOf.end()), vertexOf.end());
+
+  Mesh mesh;
   for (const int v : vertexOf) mesh.add_vertex({vertices(v, 0), vertices(v, 1), vertices(v, 2)});
   const auto local = [&](int v) {
     const auto place = std::lower_bound(vertexOf.begin(), vertexOf.end(), v) - vertexOf.begin();
     return Mesh::Vertex_index(static_cast<Mesh::size_type>(place));
   };
-  const auto whole = [&](Mesh::Vertex_index v) { return vertexOf[v.idx()]; };
   for (const Eigen::Index f : near) {
     if (mesh.add_face(local(faces(f, 0)), local(faces(f, 1)), local(faces(f, 2))) ==
         Mesh::null_face()) {
-      for (const int v : faces.row(f)) solid[at(v)] = 1;
-      return std::nullopt;
+      return {};
     }
   }
-  // A border of these faces is one of the cavity where the face beyond is not kept.
-  const auto isHole = [&](Mesh::Halfedge_index h) {
-    const int from = whole(mesh.source(h));
-    const int to = whole(mesh.target(h));
-    const IndexRange all = corners.at(from);
-    return std::any_of(all.begin(), all.end(), [&](int c) {
-      return corner[nextHalfEdge(c)] == to && touches(faces, c / 3, solid);
-    });
-  };
-  std::vector<Mesh::Halfedge_index> borders;
-  CGAL::Polygon_mesh_processing::extract_boundary_cycles(mesh, std::back_inserter(borders));
+  const Mesh::Halfedge_index border = mesh.halfedge(local(loop[0]), local(loop[1]));
+  if (!mesh.is_valid(border) || !mesh.is_border(border)) return {};
+  std::vector<Mesh::Face_index> added;
+  // The least area takes time up to the cube of the border's length: a long border is first tried
+  // in a plane, a very long one only there and among the triangles of a Delaunay triangulation.
+  constexpr std::size_t kLong = 48;
+  constexpr std::size_t kVeryLong = 128;
+  CGAL::Polygon_mesh_processing::triangulate_hole(
+      mesh, border, std::back_inserter(added),
+      CGAL::parameters::use_2d_constrained_delaunay_triangulation(loop.size() > kLong)
+          .do_not_use_cubic_algorithm(loop.size() > kVeryLong));
   std::vector<int> triangles;
+  for (const Mesh::Face_index f : added) {
+    for (const Mesh::Vertex_index v : mesh.vertices_around_face(mesh.halfedge(f))) {
+      triangles.push_back(vertexOf[v.idx()]);
+    }
+  }
+  return triangles;
+}
+
+/// Triangles that close the holes of the kept faces; empty when one cannot be closed: its border is
+/// then marked solid.
+std::optional<std::vector<int>> caps(const Points& vertices, const Faces& faces,
+                                     const VertexCorners& corners, std::vector<char>& solid) {
+  const std::vector<std::vector<int>> loops = holes(faces, corners, solid);
+  std::vector<std::vector<int>> triangles(loops.size());
+  forChunks(static_cast<Eigen::Index>(loops.size()), 1, [&](const Chunk& chunk) {
+    triangles[at(chunk.begin)] = cap(vertices, faces, corners, solid, loops[at(chunk.begin)]);
+  });
   bool isClosed = true;
-  for (const Mesh::Halfedge_index border : borders) {
-    if (!isHole(border)) continue;
-    std::vector<int> loop;
-    for (const auto h : CGAL::halfedges_around_face(border, mesh)) {
-      loop.push_back(whole(mesh.target(h)));
-    }
-    std::vector<Mesh::Face_index> cap;
-    // The least area takes time up to the cube of the border's length: a long border is first tried
-    // in a plane, a very long one only there and among the triangles of a Delaunay triangulation.
-    constexpr std::size_t kLong = 48;
-    constexpr std::size_t kVeryLong = 128;
-    CGAL::Polygon_mesh_processing::triangulate_hole(
-        mesh, border, std::back_inserter(cap),
-        CGAL::parameters::use_2d_constrained_delaunay_triangulation(loop.size() > kLong)
-            .do_not_use_cubic_algorithm(loop.size() > kVeryLong));
-    if (cap.empty()) {
-      // Retreat by one ring.
-      for (const int v : loop) solid[at(v)] = 1;
-      isClosed = false;
-    }
-    for (const Mesh::Face_index f : cap) {
-      for (const Mesh::Vertex_index v : mesh.vertices_around_face(mesh.halfedge(f))) {
-        triangles.push_back(whole(v));
-      }
-    }
+  std::vector<int> all;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    all.insert(all.end(), triangles[i].begin(), triangles[i].end());
+    if (!triangles[i].empty()) continue;
+    isClosed = false;
+    // Retreat by one ring.
+    for (const int v : loops[i]) solid[at(v)] = 1;
   }
   if (!isClosed) return std::nullopt;
-  return triangles;
+  return all;
 }
 
 } // namespace
