@@ -1,6 +1,7 @@
 #include "core/limit.h"
 
 #include "core/objective.h"
+#include "core/parallel.h"
 #include "core/triangle_tree.h"
 #include "core/validity.h"
 
@@ -37,7 +38,7 @@ public:
   void add(const Vec3& centre) { visit(centre, kTop, kNone, Side::Unknown, kNone); }
 
   static constexpr int kTop = 4;
-  double topEdge() const { return edge_ * (1 << (kTop - 1)); }
+  static double topEdge(double edge) { return edge * (1 << (kTop - 1)); }
 
   AdmissibleCells cells() const {
     std::vector<Moments> result;
@@ -179,19 +180,29 @@ AdmissibleCells admissibleCells(const TriangleTree& surface, double wall, int ce
   if (2.0 * wall >= extent.minCoeff()) return {};
   // Sheets of almost no thickness would need cells without number.
   constexpr double kMostAlongASide = 400.0;
-  RegionSampler sampler(
-      surface, wall,
-      std::max(std::cbrt(extent.prod() / cells), extent.maxCoeff() / kMostAlongASide));
-  const double step = sampler.topEdge();
-  const Eigen::Array3i counts = ((high - low) / step).array().ceil().max(1.0).cast<int>();
-  for (int i = 0; i < counts.x(); ++i) {
-    for (int j = 0; j < counts.y(); ++j) {
-      for (int k = 0; k < counts.z(); ++k) {
-        sampler.add(low + step * (Vec3(i + 0.5, j + 0.5, k + 0.5)));
-      }
-    }
+  const double edge =
+      std::max(std::cbrt(extent.prod() / cells), extent.maxCoeff() / kMostAlongASide);
+  const double step = RegionSampler::topEdge(edge);
+  const Eigen::Array<Eigen::Index, 3, 1> counts =
+      ((high - low) / step).array().ceil().max(1.0).cast<Eigen::Index>();
+  std::vector<AdmissibleCells> parts(static_cast<std::size_t>(counts.prod()));
+  forChunks(counts.prod(), 1, [&](const Chunk& chunk) {
+    const Eigen::Index column = chunk.number / counts.z();
+    const Eigen::Array<Eigen::Index, 3, 1> place(column / counts.y(), column % counts.y(),
+                                                 chunk.number % counts.z());
+    RegionSampler sampler(surface, wall, edge);
+    sampler.add(low + step * (place.cast<double>() + 0.5).matrix());
+    parts[static_cast<std::size_t>(chunk.number)] = sampler.cells();
+  });
+  Eigen::Index count = 0;
+  for (const AdmissibleCells& part : parts) count += part.rows();
+  AdmissibleCells all(count, 10);
+  Eigen::Index row = 0;
+  for (const AdmissibleCells& part : parts) {
+    all.middleRows(row, part.rows()) = part;
+    row += part.rows();
   }
-  return sampler.cells();
+  return all;
 }
 
 Limit limitOf(const Goal& goal, const Weights& weights, const Moments& solid, double fillDensity,
@@ -199,8 +210,7 @@ Limit limitOf(const Goal& goal, const Weights& weights, const Moments& solid, do
   const Eigen::Index terms = goal.usesInertia() ? 10 : 4;
   Limit limit;
   // Functions of unit mean square over the region that are orthogonal there: of one scale each.
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Rows means = cells.col(0).cwiseInverse().asDiagonal() * cells.leftCols(terms);
+  const RowMatrix means = cells.col(0).cwiseInverse().asDiagonal() * cells.leftCols(terms);
   const double volume = cells.col(0).sum();
   const Eigen::SelfAdjointEigenSolver<Matrix> spectrum(means.transpose() * cells.leftCols(terms));
   const Vector& squares = spectrum.eigenvalues();
@@ -208,7 +218,7 @@ Limit limitOf(const Goal& goal, const Weights& weights, const Moments& solid, do
   const Matrix whitening = spectrum.eigenvectors().rightCols(rank) *
                            squares.tail(rank).cwiseInverse().cwiseSqrt().asDiagonal() *
                            std::sqrt(volume);
-  const Rows psi = means * whitening;
+  const RowMatrix psi = means * whitening;
 
   struct Hollow {
     Moments cavity;
