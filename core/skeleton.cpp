@@ -2,7 +2,9 @@
 
 #include "core/arena_allocator.h"
 #include "core/components.h"
+#include "core/parallel.h"
 #include "core/spatial.h"
+#include "core/validity.h"
 
 // The skeletonisation orders its edges by their address [CGAL issue 7511], and its mesh type takes
 // its allocator from this macro: nodes from an arena have addresses in the order of their creation.
@@ -12,13 +14,12 @@
 #define CGAL_ALLOCATOR(T) std::allocator<T>
 
 #include <CGAL/Mean_curvature_flow_skeletonization.h>
-#include <CGAL/Random.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 
-#include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <vector>
 
 namespace massprops {
 namespace {
@@ -26,26 +27,90 @@ namespace {
 using Kernel = CGAL::Simple_cartesian<double>;
 /// Of this file alone: another instantiation of the skeletonisation, with CGAL's own allocator,
 /// would have the same name to the linker, which keeps one of them for both.
-struct FlowKernel : Kernel {
-  /// The flow asks whether Voronoi poles are inside, by rays from them, and tries again for ever
-  /// when the pole of points that are all but in a plane is no number. Such a one is outside.
-  struct Construct_ray_3 {
-    Ray_3 operator()(const Point_3& from, const Vector_3& direction) const {
-      const bool isPoint =
-          std::isfinite(from.x()) && std::isfinite(from.y()) && std::isfinite(from.z());
-      if (raysLeft == 0)
-        throw std::runtime_error("the mean curvature flow does not come to an end");
-      --raysLeft;
-      return isPoint ? Ray_3(from, direction) : Ray_3(Point_3(kFar, kFar, kFar), direction);
-    }
-    Ray_3 operator()(const Point_3& from, const Point_3& to) const { return {from, to}; }
-  };
-  Construct_ray_3 construct_ray_3_object() const { return {}; }
+struct FlowKernel : Kernel {};
 
-  static constexpr double kFar = 1e3;
-  static thread_local std::size_t raysLeft;
+/// Which of the flow's targets, Voronoi poles, are inside of the contracted surface, in the order
+/// that the flow asks in. Each of its steps asks twice at the same places, for the matrix and for
+/// the right-hand side.
+struct PoleAnswers {
+  std::size_t poleCount = 0; ///< vertices with a number below have a pole
+  std::vector<char> isInside;
+  std::size_t next = 0;
+  bool isRepetition = true;
 };
-thread_local std::size_t FlowKernel::raysLeft = 0;
+thread_local PoleAnswers poleAnswers;
+
+template <class HalfedgeMesh>
+TriangleMesh trianglesOf(const HalfedgeMesh& mesh) {
+  TriangleMesh triangles{Points(static_cast<Eigen::Index>(num_vertices(mesh)), 3),
+                         Faces(static_cast<Eigen::Index>(num_faces(mesh)), 3)};
+  std::vector<int> placeOf;
+  int place = 0;
+  for (const auto vertex : vertices(mesh)) {
+    if (vertex->id() >= placeOf.size()) placeOf.resize(vertex->id() + 1);
+    placeOf[vertex->id()] = place;
+    const auto& p = vertex->point();
+    triangles.vertices.row(place++) << p.x(), p.y(), p.z();
+  }
+  Eigen::Index f = 0;
+  for (const auto face : faces(mesh)) {
+    auto edge = halfedge(face, mesh);
+    for (int k = 0; k < 3; ++k, edge = next(edge, mesh)) {
+      triangles.faces(f, k) = placeOf[target(edge, mesh)->id()];
+    }
+    ++f;
+  }
+  return triangles;
+}
+
+/// A pole of points that are all but in a plane is no number, and outside.
+template <class HalfedgeMesh>
+std::vector<char> arePolesInside(const HalfedgeMesh& mesh, std::size_t poleCount) {
+  std::vector<Vec3> poles;
+  for (const auto vertex : vertices(mesh)) {
+    if (vertex->is_fixed || vertex->id() >= poleCount) continue;
+    poles.emplace_back(vertex->pole.x(), vertex->pole.y(), vertex->pole.z());
+  }
+  const TriangleMesh surface = trianglesOf(mesh);
+  const TriangleTree tree(surface.vertices, surface.faces);
+  std::vector<char> answers(poles.size());
+  constexpr Eigen::Index kChunk = 64;
+  forChunks(static_cast<Eigen::Index>(poles.size()), kChunk, [&](const Chunk& chunk) {
+    for (auto i = static_cast<std::size_t>(chunk.begin); i < static_cast<std::size_t>(chunk.end);
+         ++i) {
+      answers[i] = poles[i].allFinite() && isInside(poles[i], tree) ? 1 : 0;
+    }
+  });
+  return answers;
+}
+
+} // namespace
+} // namespace massprops
+
+/// Takes the place of CGAL's own in the flow, which shoots rays for ever from poles that are no
+/// numbers.
+template <class HalfedgeMesh, class VertexPoints, class Tree>
+class CGAL::Side_of_triangle_mesh<HalfedgeMesh, massprops::FlowKernel, VertexPoints, Tree> {
+public:
+  explicit Side_of_triangle_mesh(const HalfedgeMesh& mesh) {
+    known_.next = 0;
+    known_.isRepetition = !known_.isRepetition;
+    if (!known_.isRepetition) {
+      known_.isInside = massprops::arePolesInside(mesh, known_.poleCount);
+    }
+  }
+  /// \pre the poles in the order of their vertices
+  Bounded_side operator()(const massprops::FlowKernel::Point_3& /*pole*/) {
+    return known_.isInside.at(known_.next++) != 0 ? ON_BOUNDED_SIDE : ON_UNBOUNDED_SIDE;
+  }
+
+private:
+  massprops::PoleAnswers& known_ = massprops::poleAnswers;
+};
+
+namespace massprops {
+namespace {
+
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using Skeletonization = CGAL::Mean_curvature_flow_skeletonization<Mesh, FlowKernel>;
 
@@ -69,6 +134,10 @@ Mesh cgalMesh(const Points& vertices, const Faces& faces) {
 /// what CGAL takes halves the time and changes the skeleton by less than its noise.
 constexpr double kLeastEdge = 0.003;
 
+/// The flow has ended when a step changes the area by less than this share of the first; ten times
+/// of what CGAL takes, for the last steps move next to nothing.
+constexpr double kSettled = 1e-3;
+
 double diagonalOf(const Points& vertices) {
   return (vertices.colwise().maxCoeff() - vertices.colwise().minCoeff()).norm();
 }
@@ -77,14 +146,13 @@ double diagonalOf(const Points& vertices) {
 /// \throw std::exception when the flow does not come to an end or loses a vertex
 Points contractedPoints(const Points& vertices, const Faces& faces, std::size_t bytesPerVertex) {
   const ArenaScope arena(bytesPerVertex * static_cast<std::size_t>(vertices.rows()));
-  CGAL::get_default_random() = CGAL::Random(0);
-  // One ray a vertex and step, of which there are up to 500, and as many again.
-  FlowKernel::raysLeft = 1000 * static_cast<std::size_t>(vertices.rows());
+  poleAnswers = {static_cast<std::size_t>(vertices.rows()), {}, 0, true};
   const Mesh mesh = cgalMesh(vertices, faces);
   Skeletonization::Skeleton skeleton;
   {
     Skeletonization flow(mesh);
     flow.set_min_edge_length(kLeastEdge * diagonalOf(vertices));
+    flow.set_area_variation_factor(kSettled);
     flow.contract_until_convergence();
     flow.convert_to_skeleton(skeleton);
   }
