@@ -35,7 +35,7 @@ public:
   RegionSampler(const TriangleTree& surface, double wall, double edge)
       : surface_(surface), wall_(wall), edge_(edge) {}
 
-  void add(const Vec3& centre) { visit(centre, kTop, kNone, Side::Unknown, kNone); }
+  void add(const Vec3& centre) { visit(centre, kTop, kNone, Side::Unknown, {}); }
 
   static constexpr int kTop = 4;
   static double topEdge(double edge) { return edge * (1 << (kTop - 1)); }
@@ -82,12 +82,21 @@ private:
     int cell;     ///< number of the border cell
   };
 
-  void visit(const Vec3& centre, int level, int cell, Side side, int hintFace) {
-    const TriangleTree::Hit nearest =
-        surface_.nearest(centre, std::numeric_limits<double>::infinity(), hintFace);
-    const double distance = std::sqrt(nearest.squaredDistance);
+  /// `near`: a point of the surface, if any is known.
+  void visit(const Vec3& centre, int level, int cell, Side side, const TriangleTree::Hit& near) {
     const double size = edge_ * std::ldexp(1.0, level - 1);
     const double half = 0.5 * std::sqrt(3.0) * size;
+    if (near.face >= 0 && (centre - near.point).norm() <= wall_ - half) return;
+    // Farther away the surface does not matter.
+    const double far = side == Side::Inside    ? wall_ + half
+                       : side == Side::Outside ? half
+                                               : std::numeric_limits<double>::infinity();
+    const TriangleTree::Hit nearest = surface_.nearest(centre, far * far, near.face);
+    if (nearest.face < 0) {
+      if (side == Side::Inside) parts_.push_back({centre, far, Vec3::UnitX(), level, cell});
+      return;
+    }
+    const double distance = std::sqrt(nearest.squaredDistance);
     if (distance <= wall_ - half) return;
     if (side == Side::Unknown && (distance >= half || level == 0)) {
       side = isInside(centre, nearest, surface_) ? Side::Inside : Side::Outside;
@@ -103,7 +112,7 @@ private:
     for (int corner = 0; corner < 8; ++corner) {
       const Vec3 step((corner & 1) != 0 ? 0.25 : -0.25, (corner & 2) != 0 ? 0.25 : -0.25,
                       (corner & 4) != 0 ? 0.25 : -0.25);
-      visit(centre + size * step, level - 1, cell, side, nearest.face);
+      visit(centre + size * step, level - 1, cell, side, nearest);
     }
   }
 
