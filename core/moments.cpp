@@ -81,7 +81,7 @@ void addRates(const Points& vertices, const Faces& faces, const Chunk& chunk,
 
 } // namespace
 
-Moments moments(const Points& vertices, const Faces& faces) {
+Moments moments(const Points& vertices, const Faces& faces, bool withSecond) {
   // Signed tetrahedra (0, a, b, c) with D = a·(b×c) = a·((b−a)×(c−a)), s = a+b+c; the second form
   // cancels less far from the origin.
   // ∫1 = D/6, ∫x = D s/24, ∫x xᵀ = D (s sᵀ + a aᵀ + b bᵀ + c cᵀ)/120.
@@ -98,7 +98,7 @@ Moments moments(const Points& vertices, const Faces& faces) {
       const Row3 s = a + b + c;
       volume += D;
       first += D * s;
-      second += D * (square(s) + square(a) + square(b) + square(c));
+      if (withSecond) second += D * (square(s) + square(a) + square(b) + square(c));
     }
     parts[static_cast<std::size_t>(chunk.number)] << volume / 6.0, first.transpose() / 24.0,
         second.transpose() / 120.0;

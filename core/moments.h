@@ -14,7 +14,8 @@ using MomentRates = RowMatrix;
 
 /// Positive volume for outward orientation. The surface must be closed; the origin should be near
 /// it, for the integrals cancel far away. [Ton05, docs/math.md "Moments"]
-Moments moments(const Points& vertices, const Faces& faces);
+/// `withSecond`: if not, those of degree 2 are left 0, which saves half of the time.
+Moments moments(const Points& vertices, const Faces& faces, bool withSecond = true);
 
 /// Exact derivative of `moments` when vertex i moves along row i of `directions` (n×3, any length).
 /// docs/math.md "Derivative of the moments".

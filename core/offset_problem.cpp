@@ -56,7 +56,8 @@ struct RatedMoments {
 
 RatedMoments momentsWithRates(const Points& vertices, const Faces& faces, const Points& directions,
                               bool usesInertia) {
-  return {moments(vertices, faces), momentRates(vertices, faces, directions, usesInertia)};
+  return {moments(vertices, faces, usesInertia),
+          momentRates(vertices, faces, directions, usesInertia)};
 }
 
 CavityMoments momentsOf(const OffsetModel& model, const OffsetSurfaces& surfaces,

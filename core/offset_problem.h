@@ -45,7 +45,7 @@ struct CavityMoments {
   Moments value;
   MomentJacobian jacobian;
 };
-/// `usesInertia`: if not, the derivatives of the second moments are 0.
+/// `usesInertia`: if not, the second moments and their derivatives are 0.
 CavityMoments cavityMoments(const OffsetModel& model, const Vector& coefficients, bool usesInertia);
 
 /// Objective terms 1–6 and the goal's constraints at `coefficients`; docs/math.md "Objective".

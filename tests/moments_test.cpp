@@ -249,6 +249,9 @@ TEST(MomentRates, OfTheFirstMomentsAloneAreTheSame) {
   const MomentRates few = momentRates(mesh.vertices, mesh.faces, directions, false);
   ASSERT_EQ(few.cols(), 4);
   EXPECT_EQ(few, all.leftCols(4));
+  const Moments first = moments(mesh.vertices, mesh.faces, false);
+  EXPECT_EQ(first.head<4>(), moments(mesh.vertices, mesh.faces).head<4>());
+  EXPECT_EQ(first.tail<6>(), Moments::Zero().tail<6>());
 }
 
 TEST(MomentRates, OfARigidTranslationAreTheParallelAxisRule) {
