@@ -305,7 +305,12 @@ TriangleTree::Hit TriangleTree::nearest(const Vec3& p, double squaredBound, int 
   // Boxes at this distance or farther away are of no interest.
   double reach = squaredBound;
   const auto visit = [&](int f) {
-    const Vec3 point = nearestOnTriangle(p, corner(f, 0), corner(f, 1), corner(f, 2));
+    const Vec3 a = corner(f, 0);
+    const Vec3 b = corner(f, 1);
+    const Vec3 c = corner(f, 2);
+    const Vec3 gap = (a.cwiseMin(b).cwiseMin(c) - p).cwiseMax(p - a.cwiseMax(b).cwiseMax(c));
+    if (gap.cwiseMax(0.0).squaredNorm() * kRounded >= reach) return;
+    const Vec3 point = nearestOnTriangle(p, a, b, c);
     const double distance = (p - point).squaredNorm();
     if (!(distance < best.squaredDistance)) return;
     best = {distance, f, point};
