@@ -140,8 +140,8 @@ std::vector<std::vector<int>> holes(const Faces& faces, const VertexCorners& cor
   return loops;
 }
 
-/// Triangles that close a hole, three corners each; none when it cannot be closed without doubling
-/// an edge.
+/// Triangles that close a hole, three corners each; none when it cannot be closed without making
+/// the surface non-manifold.
 std::vector<int> cap(const Points& vertices, const Faces& faces, const VertexCorners& corners,
                      const std::vector<char>& solid, const std::vector<int>& loop) {
   // The kept faces around its border are all that closing a hole has to know.

@@ -88,12 +88,11 @@ private:
     const double half = 0.5 * std::sqrt(3.0) * size;
     if (near.face >= 0 && (centre - near.point).norm() <= wall_ - half) return;
     // Farther away the surface does not matter.
-    const double far = side == Side::Inside    ? wall_ + half
-                       : side == Side::Outside ? half
-                                               : std::numeric_limits<double>::infinity();
+    const double far =
+        side == Side::Inside ? wall_ + half : std::numeric_limits<double>::infinity();
     const TriangleTree::Hit nearest = surface_.nearest(centre, far * far, near.face);
     if (nearest.face < 0) {
-      if (side == Side::Inside) parts_.push_back({centre, far, Vec3::UnitX(), level, cell});
+      parts_.push_back({centre, far, Vec3::UnitX(), level, cell});
       return;
     }
     const double distance = std::sqrt(nearest.squaredDistance);

@@ -110,13 +110,14 @@ Moments moments(const Points& vertices, const Faces& faces, bool withSecond) {
 
 MomentRates momentRates(const Points& vertices, const Faces& faces, const Points& directions,
                         bool withSecond) {
+  const Eigen::Index terms = withSecond ? 10 : 4;
+  if (faces.rows() == 0) return MomentRates::Zero(vertices.rows(), terms);
   // A sum for each half of the faces, for many would cost more than the faces.
   const Eigen::Index length = std::max(kChunk, chunkCount(faces.rows(), 2));
-  std::vector<MomentRates> parts(
-      static_cast<std::size_t>(std::max<Eigen::Index>(1, chunkCount(faces.rows(), length))));
+  std::vector<MomentRates> parts(static_cast<std::size_t>(chunkCount(faces.rows(), length)));
   forChunks(faces.rows(), length, [&](const Chunk& chunk) {
     MomentRates& part = parts[static_cast<std::size_t>(chunk.number)];
-    part.setZero(vertices.rows(), withSecond ? 10 : 4);
+    part.setZero(vertices.rows(), terms);
     withSecond ? addRates<true>(vertices, faces, chunk, directions, part)
                : addRates<false>(vertices, faces, chunk, directions, part);
   });

@@ -5,7 +5,6 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
-#include <system_error>
 #include <thread>
 
 namespace massprops {
@@ -30,7 +29,7 @@ void waitAwake(const Condition& isReady) {
   while (!isReady() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
 }
 
-/// What helpers call once each.
+/// What helpers call, up to `wanted` times together.
 struct Task {
   const std::function<void()>& run;
   int wanted; ///< helpers that may still join
@@ -43,9 +42,10 @@ struct Task {
 class ThreadTeam::Crew {
 public:
   explicit Crew(int helpers) {
+    helpers_.reserve(static_cast<std::size_t>(helpers));
     try {
       for (int i = 0; i < helpers; ++i) helpers_.emplace_back([this] { help(); });
-    } catch (const std::system_error&) {
+    } catch (const std::exception&) {
       // No more threads are to be had: fewer will do.
     }
   }
@@ -60,8 +60,8 @@ public:
   Crew(const Crew&) = delete;
   Crew& operator=(const Crew&) = delete;
 
-  /// Calls `own`, while up to `wanted` helpers call `others`; ends when all have ended, whatever
-  /// they throw. Returns how many helped.
+  /// Calls `own`, while helpers call `others` up to `wanted` times; ends when all have ended,
+  /// whatever they throw. Returns how often helpers did.
   int share(const std::function<void()>& own, const std::function<void()>& others, int wanted) {
     const int helpers = std::min(wanted, static_cast<int>(helpers_.size()));
     Task task{others, helpers};
@@ -133,7 +133,7 @@ thread_local ThreadTeam::Crew* present = nullptr;
 } // namespace
 
 ThreadTeam::ThreadTeam() : before_(present) {
-  if (present != nullptr || threadCount() == 1) return;
+  if (present != nullptr) return;
   crew_ = std::make_unique<Crew>(threadCount() - 1);
   present = crew_.get();
 }
@@ -161,8 +161,7 @@ void forChunks(Eigen::Index count, Eigen::Index length,
     for (Eigen::Index c = 0; c < chunks; ++c) call(c);
     return;
   }
-  // Everyone begins with the chunks that it had in loops of other lengths, for what they are about
-  // is in its cache.
+  // Each begins with a part of its own: what a thread had in one loop is in its cache for the next.
   std::vector<std::atomic<bool>> isTaken(static_cast<std::size_t>(chunks));
   const auto work = [&](int worker) {
     const Eigen::Index first = worker * chunks / workers;

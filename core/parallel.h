@@ -15,8 +15,8 @@ namespace massprops {
 int threadCount();
 void setThreadCount(int count);
 
-/// Threads that stay awake between the loops of the thread that made it, while it lives. Without
-/// one, each loop starts and ends its own.
+/// Threads that wait for the loops of the thread that made it, while it lives. Without one, each
+/// loop starts and ends its own.
 class ThreadTeam {
 public:
   ThreadTeam();
@@ -49,7 +49,8 @@ inline Eigen::Index chunkCount(Eigen::Index count, Eigen::Index length) {
 void forChunks(Eigen::Index count, Eigen::Index length,
                const std::function<void(const Chunk&)>& body);
 
-/// Both, the first on a thread of its own.
+/// Both: the second on the calling thread, the first on another one, or on the calling one later
+/// when no other is free.
 void inParallel(const std::function<void()>& first, const std::function<void()>& second);
 
 } // namespace massprops

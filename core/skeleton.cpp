@@ -34,6 +34,7 @@ struct FlowKernel : Kernel {};
 /// the right-hand side.
 struct PoleAnswers {
   std::size_t poleCount = 0; ///< vertices with a number below have a pole
+  std::vector<Vec3> poles;
   std::vector<char> isInside;
   std::size_t next = 0;
   bool isRepetition = true;
@@ -63,15 +64,23 @@ TriangleMesh trianglesOf(const HalfedgeMesh& mesh) {
   return triangles;
 }
 
-/// A pole of points that are all but in a plane is no number, and outside.
 template <class HalfedgeMesh>
-std::vector<char> arePolesInside(const HalfedgeMesh& mesh, std::size_t poleCount) {
+std::vector<Vec3> polesOf(const HalfedgeMesh& mesh, std::size_t poleCount) {
   std::vector<Vec3> poles;
   for (const auto vertex : vertices(mesh)) {
     if (vertex->is_fixed || vertex->id() >= poleCount) continue;
     poles.emplace_back(vertex->pole.x(), vertex->pole.y(), vertex->pole.z());
   }
+  return poles;
+}
+
+/// A pole of points that are all but in a plane is no number, and outside.
+template <class HalfedgeMesh>
+std::vector<char> areInside(const std::vector<Vec3>& poles, const HalfedgeMesh& mesh) {
   const TriangleMesh surface = trianglesOf(mesh);
+  if (!surface.vertices.allFinite()) {
+    throw std::runtime_error("the mean curvature flow lost its way");
+  }
   const TriangleTree tree(surface.vertices, surface.faces);
   std::vector<char> answers(poles.size());
   constexpr Eigen::Index kChunk = 64;
@@ -95,13 +104,17 @@ public:
   explicit Side_of_triangle_mesh(const HalfedgeMesh& mesh) {
     known_.next = 0;
     known_.isRepetition = !known_.isRepetition;
-    if (!known_.isRepetition) {
-      known_.isInside = massprops::arePolesInside(mesh, known_.poleCount);
-    }
+    if (known_.isRepetition) return;
+    known_.poles = massprops::polesOf(mesh, known_.poleCount);
+    known_.isInside = massprops::areInside(known_.poles, mesh);
   }
-  /// \pre the poles in the order of their vertices
-  Bounded_side operator()(const massprops::FlowKernel::Point_3& /*pole*/) {
-    return known_.isInside.at(known_.next++) != 0 ? ON_BOUNDED_SIDE : ON_UNBOUNDED_SIDE;
+  Bounded_side operator()(const massprops::FlowKernel::Point_3& pole) {
+    const std::size_t i = known_.next++;
+    const massprops::Vec3 asked(pole.x(), pole.y(), pole.z());
+    if (asked.allFinite() && asked != known_.poles.at(i)) {
+      throw std::logic_error("the mean curvature flow asks in another order");
+    }
+    return known_.isInside.at(i) != 0 ? ON_BOUNDED_SIDE : ON_UNBOUNDED_SIDE;
   }
 
 private:
@@ -146,7 +159,8 @@ double diagonalOf(const Points& vertices) {
 /// \throw std::exception when the flow does not come to an end or loses a vertex
 Points contractedPoints(const Points& vertices, const Faces& faces, std::size_t bytesPerVertex) {
   const ArenaScope arena(bytesPerVertex * static_cast<std::size_t>(vertices.rows()));
-  poleAnswers = {static_cast<std::size_t>(vertices.rows()), {}, 0, true};
+  poleAnswers = {};
+  poleAnswers.poleCount = static_cast<std::size_t>(vertices.rows());
   const Mesh mesh = cgalMesh(vertices, faces);
   Skeletonization::Skeleton skeleton;
   {

@@ -309,7 +309,7 @@ TriangleTree::Hit TriangleTree::nearest(const Vec3& p, double squaredBound, int 
     const Vec3 b = corner(f, 1);
     const Vec3 c = corner(f, 2);
     const Vec3 gap = (a.cwiseMin(b).cwiseMin(c) - p).cwiseMax(p - a.cwiseMax(b).cwiseMax(c));
-    if (gap.cwiseMax(0.0).squaredNorm() * kRounded >= reach) return;
+    if (gap.cwiseMax(0.0).squaredNorm() * kBelowRounding >= reach) return;
     const Vec3 point = nearestOnTriangle(p, a, b, c);
     const double distance = (p - point).squaredNorm();
     if (!(distance < best.squaredDistance)) return;

@@ -82,8 +82,10 @@ private:
                     const Eigen::Array4f& upper) const {
     const Box& box = boxes_[static_cast<std::size_t>(node)];
     const Eigen::Array4f outside = (box.lower - upper).max(lower - box.upper) - rounding_;
-    const float sum = outside.max(0.0F).square().sum();
-    return kRounded * static_cast<double>(std::min(sum, std::numeric_limits<float>::max()));
+    // What floats cannot tell counts as no gap.
+    const float sum = (outside > 0.0F).select(outside, 0.0F).square().sum();
+    if (!(sum >= std::numeric_limits<float>::min())) return 0.0;
+    return kBelowRounding * static_cast<double>(std::min(sum, std::numeric_limits<float>::max()));
   }
   Box boxOf(Eigen::Index begin, Eigen::Index end) const;
   Vec3 corner(int face, int k) const { return vertices_.row(faces_(face, k)).transpose(); }
@@ -93,9 +95,10 @@ private:
   std::vector<int> order_;  ///< empty: as given
   Eigen::Index leaves_ = 1; ///< a power of two
   std::vector<Box> boxes_;  ///< children of i: 2i, 2i + 1; the root is 1
-  /// More than the sum of what the coordinates lose as floats.
+  /// More than the boxes lose as floats; what far points lose is a share of the gap, as are the
+  /// roundings of its square.
   float rounding_ = 0.0F;
-  static constexpr double kRounded = 1.0 - 1e-6;
+  static constexpr double kBelowRounding = 1.0 - 1e-6;
 };
 
 /// The point of the triangle (a, b, c) next to p, by its weights at the corners. [Eri05,

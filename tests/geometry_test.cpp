@@ -107,12 +107,11 @@ TEST_P(NearestPoint, IsThatOfAllTriangles) {
 }
 
 // Boxes are floats, which are exhausted by squares of such lengths and by such origins.
-INSTANTIATE_TEST_SUITE_P(Sizes, NearestPoint,
-                         ::testing::Values(std::pair(1.0, Vec3(0, 0, 0)),
-                                           std::pair(1e25, Vec3(0, 0, 0)),
-                                           std::pair(1e-25, Vec3(0, 0, 0)),
-                                           std::pair(1.0, Vec3(1e5, -3e6, 0)),
-                                           std::pair(1e-3, Vec3(0, 0, 1e5))));
+INSTANTIATE_TEST_SUITE_P(
+    Sizes, NearestPoint,
+    ::testing::Values(std::pair(1.0, Vec3(0, 0, 0)), std::pair(1e25, Vec3(0, 0, 0)),
+                      std::pair(1e-25, Vec3(0, 0, 0)), std::pair(1e-21, Vec3(0, 0, 0)),
+                      std::pair(1.0, Vec3(1e5, -3e6, 0)), std::pair(1e-3, Vec3(0, 0, 1e5))));
 
 TEST(SurfaceDistances, OfConcentricBoxesAreTheirGap) {
   const TriangleMesh outer = box({1.2, 1.4, 1.6}, 2);

@@ -242,6 +242,12 @@ TEST(MomentRates, MatchCentralDifferences) {
   }
 }
 
+TEST(MomentRates, OfNoFacesAreZero) {
+  const Points points = Points::Random(5, 3);
+  EXPECT_EQ(momentRates(points, Faces(0, 3), points), MomentRates::Zero(5, 10));
+  EXPECT_EQ(momentRates(points, Faces(0, 3), points, false), MomentRates::Zero(5, 4));
+}
+
 TEST(MomentRates, OfTheFirstMomentsAloneAreTheSame) {
   const TriangleMesh mesh = blob(7);
   const Points directions = mesh.vertices.rowwise().reverse();

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <filesystem>
 #include <iterator>
@@ -129,7 +130,6 @@ TEST(ThreadTeam, WorksOnAllItsThreadsAndLeavesNoneBehind) {
   std::set<std::thread::id> seen;
   {
     const ThreadTeam team;
-    EXPECT_EQ(threadsOfThisProcess(), before + 2);
     // As many chunks at once as there are threads: none ends before all have begun.
     std::atomic<int> begun = 0;
     forChunks(3, 1, [&](const Chunk&) {
@@ -140,7 +140,12 @@ TEST(ThreadTeam, WorksOnAllItsThreadsAndLeavesNoneBehind) {
     });
   }
   EXPECT_EQ(seen.size(), 3U);
-  EXPECT_EQ(threadsOfThisProcess(), before);
+  // The system may list a thread a little longer than it runs.
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  while (threadsOfThisProcess() > before && std::chrono::steady_clock::now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_LE(threadsOfThisProcess(), before);
 }
 
 } // namespace

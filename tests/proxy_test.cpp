@@ -145,26 +145,6 @@ TEST(Interpolation, HasTheTransposeOfItself) {
 
 // ---------------------------------------------------------------- threads
 
-TEST(ForChunks, VisitsEveryIndexOnceWithAnyNumberOfThreads) {
-  for (const int threads : {1, 2, 5}) {
-    const ThreadCount count(threads);
-    std::vector<int> visits(1003, 0);
-    forChunks(1003, 10, [&](const Chunk& chunk) {
-      EXPECT_EQ(chunk.begin, 10 * chunk.number);
-      for (Eigen::Index i = chunk.begin; i < chunk.end; ++i) ++visits[static_cast<std::size_t>(i)];
-    });
-    EXPECT_EQ(visits, std::vector<int>(1003, 1));
-  }
-}
-
-TEST(ForChunks, PassesAnExceptionOn) {
-  EXPECT_THROW(forChunks(100, 1,
-                         [](const Chunk& chunk) {
-                           if (chunk.number == 57) throw std::runtime_error("57");
-                         }),
-               std::runtime_error);
-}
-
 TEST(Threads, DoNotChangeASingleBitOfTheCavity) {
   // Large enough for a coarse copy and a proxy of it.
   const TriangleMesh mesh = transformed(blob(38), someRotation());
