@@ -112,8 +112,8 @@ MomentRates momentRates(const Points& vertices, const Faces& faces, const Points
                         bool withSecond) {
   const Eigen::Index terms = withSecond ? 10 : 4;
   if (faces.rows() == 0) return MomentRates::Zero(vertices.rows(), terms);
-  // A sum for each half of the faces, for many would cost more than the faces.
-  const Eigen::Index length = std::max(kChunk, chunkCount(faces.rows(), 2));
+  // A sum for each half of the faces; more of them, or of ten terms, cost more than the faces.
+  const Eigen::Index length = std::max(kChunk, chunkCount(faces.rows(), withSecond ? 1 : 2));
   std::vector<MomentRates> parts(static_cast<std::size_t>(chunkCount(faces.rows(), length)));
   forChunks(faces.rows(), length, [&](const Chunk& chunk) {
     MomentRates& part = parts[static_cast<std::size_t>(chunk.number)];

@@ -56,8 +56,16 @@ struct RatedMoments {
 
 RatedMoments momentsWithRates(const Points& vertices, const Faces& faces, const Points& directions,
                               bool usesInertia) {
-  return {moments(vertices, faces, usesInertia),
-          momentRates(vertices, faces, directions, usesInertia)};
+  RatedMoments result;
+  const auto rate = [&] { result.rates = momentRates(vertices, faces, directions, usesInertia); };
+  const auto measure = [&] { result.value = moments(vertices, faces, usesInertia); };
+  if (usesInertia) {
+    inParallel(rate, measure);
+  } else {
+    rate();
+    measure();
+  }
+  return result;
 }
 
 CavityMoments momentsOf(const OffsetModel& model, const OffsetSurfaces& surfaces,
