@@ -26,18 +26,17 @@ SymmetricSix square(const Row3& p) {
   return six;
 }
 
-/// Adds the faces' share to `result`.
 template <bool WithSecond>
-void addRates(const Points& vertices, const Faces& faces, const Chunk& chunk,
-              const Points& directions, MomentRates& result) {
+MomentRates rates(const Points& vertices, const Faces& faces, const Points& directions) {
   // Reynolds: d/dt ∫q dV = ∫ q λ_a (n·d_a) dA over the triangles at a, λ_a the hat function of a.
   // With N = (b−a)×(c−a) = 2·area·n and ∫λ_a^i λ_b^j λ_c^k dA = 2·area·i!j!k!/(i+j+k+2)!:
   // dV = N·d/6, d∫x = N·d (s + a)/24, d∫x xᵀ = N·d (s sᵀ + Σ p pᵀ + a sᵀ + s aᵀ + 2a aᵀ)/120,
   // where (s+a)(s+a)ᵀ + a aᵀ + Σ p pᵀ is the last bracket.
   constexpr Eigen::Index kTerms = WithSecond ? 10 : 4;
+  MomentRates result = MomentRates::Zero(vertices.rows(), kTerms);
   const double* x = vertices.data();
   const double* d = directions.data();
-  for (Eigen::Index f = chunk.begin; f < chunk.end; ++f) {
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
     const Eigen::Index v[3] = {faces(f, 0), faces(f, 1), faces(f, 2)};
     const double* p[3] = {x + 3 * v[0], x + 3 * v[1], x + 3 * v[2]};
     const double e[3] = {p[1][0] - p[0][0], p[1][1] - p[0][1], p[1][2] - p[0][2]};
@@ -77,6 +76,7 @@ void addRates(const Points& vertices, const Faces& faces, const Chunk& chunk,
       rate[9] += second * (sum[5] + t[2] * t[0] + a[2] * a[0]);
     }
   }
+  return result;
 }
 
 } // namespace
@@ -110,24 +110,8 @@ Moments moments(const Points& vertices, const Faces& faces, bool withSecond) {
 
 MomentRates momentRates(const Points& vertices, const Faces& faces, const Points& directions,
                         bool withSecond) {
-  const Eigen::Index terms = withSecond ? 10 : 4;
-  if (faces.rows() == 0) return MomentRates::Zero(vertices.rows(), terms);
-  // A sum for each half of the faces; more of them, or of ten terms, cost more than the faces.
-  const Eigen::Index length = std::max(kChunk, chunkCount(faces.rows(), withSecond ? 1 : 2));
-  std::vector<MomentRates> parts(static_cast<std::size_t>(chunkCount(faces.rows(), length)));
-  forChunks(faces.rows(), length, [&](const Chunk& chunk) {
-    MomentRates& part = parts[static_cast<std::size_t>(chunk.number)];
-    part.setZero(vertices.rows(), terms);
-    withSecond ? addRates<true>(vertices, faces, chunk, directions, part)
-               : addRates<false>(vertices, faces, chunk, directions, part);
-  });
-  forChunks(vertices.rows(), kChunk, [&](const Chunk& chunk) {
-    const Eigen::Index size = chunk.end - chunk.begin;
-    for (std::size_t i = 1; i < parts.size(); ++i) {
-      parts[0].middleRows(chunk.begin, size) += parts[i].middleRows(chunk.begin, size);
-    }
-  });
-  return std::move(parts[0]);
+  return withSecond ? rates<true>(vertices, faces, directions)
+                    : rates<false>(vertices, faces, directions);
 }
 
 Moments translated(const Moments& moments, const Vec3& shift) {

@@ -57,14 +57,8 @@ struct RatedMoments {
 RatedMoments momentsWithRates(const Points& vertices, const Faces& faces, const Points& directions,
                               bool usesInertia) {
   RatedMoments result;
-  const auto rate = [&] { result.rates = momentRates(vertices, faces, directions, usesInertia); };
-  const auto measure = [&] { result.value = moments(vertices, faces, usesInertia); };
-  if (usesInertia) {
-    inParallel(rate, measure);
-  } else {
-    rate();
-    measure();
-  }
+  inParallel([&] { result.rates = momentRates(vertices, faces, directions, usesInertia); },
+             [&] { result.value = moments(vertices, faces, usesInertia); });
   return result;
 }
 
