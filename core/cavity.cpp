@@ -121,8 +121,8 @@ std::vector<std::vector<int>> holes(const Faces& faces, const VertexCorners& cor
     for (int k = 0; k < 3; ++k) {
       const int from = faces(f, (k + 1) % 3);
       const int to = faces(f, (k + 2) % 3);
-      const bool isOutside = solid[at(faces(f, k))] != 0 && solid[at(from)] == 0;
-      if (isOutside && solid[at(to)] == 0 && isKeptBeyond(from, to)) after[at(from)] = to;
+      const bool isLeftOut = solid[at(faces(f, k))] != 0 && solid[at(from)] == 0;
+      if (isLeftOut && solid[at(to)] == 0 && isKeptBeyond(from, to)) after[at(from)] = to;
     }
   }
   std::vector<std::vector<int>> loops;

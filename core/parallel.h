@@ -16,7 +16,7 @@ int threadCount();
 void setThreadCount(int count);
 
 /// Threads that wait for the loops of the thread that made it, while it lives. Without one, each
-/// loop starts and ends its own.
+/// loop starts and ends its own. Where the system gives no threads, the loops run on fewer.
 class ThreadTeam {
 public:
   ThreadTeam();

@@ -357,6 +357,18 @@ bool isMuchLess(Eigen::Index size, const Points& vertices) {
   return static_cast<double>(vertices.rows()) >= kWorthwhile * static_cast<double>(size);
 }
 
+template <int Columns>
+void addTransposed(const Faces& corners, const Points& weights,
+                   const Eigen::Ref<const RowMatrix>& values, const Chunk& chunk, RowMatrix& sum) {
+  using Row = Eigen::Matrix<double, 1, Columns>;
+  for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
+    const Eigen::Map<const Row> value(values.row(v).data(), values.cols());
+    for (int k = 0; k < 3; ++k) {
+      Eigen::Map<Row>(sum.row(corners(v, k)).data(), sum.cols()) += weights(v, k) * value;
+    }
+  }
+}
+
 } // namespace
 
 Interpolation::Interpolation(Faces corners, Points weights, Eigen::Index proxySize)
@@ -395,18 +407,6 @@ Points Interpolation::operator*(const Points& values) const {
   return result;
 }
 
-template <int Columns>
-void Interpolation::addTransposed(const Eigen::Ref<const RowMatrix>& values, const Chunk& chunk,
-                                  RowMatrix& sum) const {
-  using Row = Eigen::Matrix<double, 1, Columns>;
-  for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
-    const Eigen::Map<const Row> value(values.row(v).data(), values.cols());
-    for (int k = 0; k < 3; ++k) {
-      Eigen::Map<Row>(sum.row(corners_(v, k)).data(), sum.cols()) += weights_(v, k) * value;
-    }
-  }
-}
-
 RowMatrix Interpolation::transposeTimes(const Eigen::Ref<const RowMatrix>& values) const {
   if (isIdentity()) return values;
   // One sum a chunk, for the sums of two threads must not depend on who comes first.
@@ -418,13 +418,13 @@ RowMatrix Interpolation::transposeTimes(const Eigen::Ref<const RowMatrix>& value
     // Rows of known length take half the time.
     switch (values.cols()) {
     case 4:
-      addTransposed<4>(values, chunk, part);
+      addTransposed<4>(corners_, weights_, values, chunk, part);
       break;
     case 10:
-      addTransposed<10>(values, chunk, part);
+      addTransposed<10>(corners_, weights_, values, chunk, part);
       break;
     default:
-      addTransposed<Eigen::Dynamic>(values, chunk, part);
+      addTransposed<Eigen::Dynamic>(corners_, weights_, values, chunk, part);
     }
   });
   for (std::size_t i = 1; i < parts.size(); ++i) parts[0] += parts[i];

@@ -1,7 +1,6 @@
 // A coarse copy of a surface, and functions on it carried over to the surface.
 #pragma once
 
-#include "core/parallel.h"
 #include "core/types.h"
 
 #include <vector>
@@ -23,14 +22,11 @@ public:
 
   Vector operator*(const Vector& values) const;
   Points operator*(const Points& values) const;
-  /// PᵀY for Y n×m with few columns.
+  /// PᵀY, p×m, for Y n×m with few columns.
   RowMatrix transposeTimes(const Eigen::Ref<const RowMatrix>& values) const;
 
 private:
   Interpolation() = default;
-  template <int Columns>
-  void addTransposed(const Eigen::Ref<const RowMatrix>& values, const Chunk& chunk,
-                     RowMatrix& sum) const;
 
   Eigen::Index rows_ = 0;
   Eigen::Index cols_ = 0;

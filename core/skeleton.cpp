@@ -143,12 +143,12 @@ Mesh cgalMesh(const Points& vertices, const Faces& faces) {
   return mesh;
 }
 
-/// Edges that are shorter collapse while the flow contracts the surface, of the diagonal; twice of
+/// Edges that are shorter collapse while the flow contracts the surface, of the diagonal; twice
 /// what CGAL takes halves the time and changes the skeleton by less than its noise.
 constexpr double kLeastEdge = 0.003;
 
 /// The flow has ended when a step changes the area by less than this share of the first; ten times
-/// of what CGAL takes, for the last steps move next to nothing.
+/// what CGAL takes, for the last steps move next to nothing.
 constexpr double kSettled = 1e-3;
 
 double diagonalOf(const Points& vertices) {
