@@ -83,7 +83,7 @@ private:
     const Box& box = boxes_[static_cast<std::size_t>(node)];
     const Eigen::Array4f outside = (box.lower - upper).max(lower - box.upper) - rounding_;
     // What floats cannot tell counts as no gap.
-    const float sum = (outside > 0.0F).select(outside, 0.0F).square().sum();
+    const float sum = Eigen::Array4f::Zero().max(outside).square().sum();
     if (!(sum >= std::numeric_limits<float>::min())) return 0.0;
     return kBelowRounding * static_cast<double>(std::min(sum, std::numeric_limits<float>::max()));
   }
