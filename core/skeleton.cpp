@@ -81,7 +81,8 @@ std::vector<char> areInside(const std::vector<Vec3>& poles, const HalfedgeMesh& 
   if (!surface.vertices.allFinite()) {
     throw std::runtime_error("the mean curvature flow lost its way");
   }
-  const TriangleTree tree(surface.vertices, surface.faces);
+  const TriangleTree tree(surface.vertices, surface.faces, TriangleTree::Order::Any,
+                          TriangleTree::Queries::NoDistances);
   std::vector<char> answers(poles.size());
   constexpr Eigen::Index kChunk = 64;
   forChunks(static_cast<Eigen::Index>(poles.size()), kChunk, [&](const Chunk& chunk) {

@@ -70,13 +70,6 @@ float above(double x) {
   return -below(-x);
 }
 
-/// Boxes of floats have four entries.
-Eigen::Array4f asFloats(const Vec3& p) {
-  Eigen::Array4f floats = Eigen::Array4f::Zero();
-  floats.head<3>() = p.cast<float>().array();
-  return floats;
-}
-
 Vec3 nearestOnTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 w = nearestWeights(p, a, b, c);
   return w[0] * a + w[1] * b + w[2] * c;
@@ -232,26 +225,60 @@ std::vector<int> spatialOrder(const Points& vertices, const Faces& faces) {
   return order;
 }
 
-TriangleTree::TriangleTree(const Points& vertices, const Faces& faces, Order order)
+TriangleTree::TriangleTree(const Points& vertices, const Faces& faces, Order order, Queries queries)
     : vertices_(vertices), faces_(faces), leaves_(leafCount(faces.rows())) {
   if (order == Order::Any) order_ = spatialOrder(vertices, faces);
-  boxes_.resize(static_cast<std::size_t>(2 * leaves_));
+  if (queries == Queries::All) triangles_.resize(static_cast<std::size_t>(leaves_));
+  std::vector<Box> level(static_cast<std::size_t>(leaves_));
   forChunks(leaves_, kChunk, [&](const Chunk& chunk) {
     for (Eigen::Index leaf = chunk.begin; leaf < chunk.end; ++leaf) {
-      boxes_[static_cast<std::size_t>(leaves_ + leaf)] =
-          boxOf(firstPlace(leaf), firstPlace(leaf + 1));
+      level[static_cast<std::size_t>(leaf)] = boxOf(firstPlace(leaf), firstPlace(leaf + 1));
+      if (queries == Queries::All) triangles_[static_cast<std::size_t>(leaf)] = trianglesOf(leaf);
     }
   });
-  for (Eigen::Index node = leaves_ - 1; node >= 1; --node) {
-    const Box& a = boxes_[static_cast<std::size_t>(2 * node)];
-    const Box& b = boxes_[static_cast<std::size_t>(2 * node + 1)];
-    Box& box = boxes_[static_cast<std::size_t>(node)];
-    box.lower = a.lower.min(b.lower);
-    box.upper = a.upper.max(b.upper);
+  boxes_.resize(static_cast<std::size_t>(leaves_ / 2));
+  Eigen::Index nodes = leaves_;
+  for (; nodes >= 4; nodes /= 4) {
+    for (Eigen::Index i = 0; i < nodes / 4; ++i) {
+      FourBoxes& four = boxes_[static_cast<std::size_t>(nodes / 4 + i)];
+      Box all = level[static_cast<std::size_t>(4 * i)];
+      for (int child = 0; child < 4; ++child) {
+        const Box& box = level[static_cast<std::size_t>(4 * i + child)];
+        for (int k = 0; k < 3; ++k) {
+          four.lower[k][child] = box.lower[k];
+          four.upper[k][child] = box.upper[k];
+        }
+        all = {all.lower.min(box.lower), all.upper.max(box.upper)};
+      }
+      level[static_cast<std::size_t>(i)] = all;
+    }
   }
+  roots_ = static_cast<int>(nodes);
+  box_ = {level[0].lower.min(level[static_cast<std::size_t>(nodes - 1)].lower),
+          level[0].upper.max(level[static_cast<std::size_t>(nodes - 1)].upper)};
   constexpr float kUnits = 8.0F;
   rounding_ = kUnits * std::numeric_limits<float>::epsilon() *
-              std::max(boxes_[1].lower.abs().maxCoeff(), boxes_[1].upper.abs().maxCoeff());
+              std::max(box_.lower.abs().maxCoeff(), box_.upper.abs().maxCoeff());
+}
+
+TriangleTree::Box TriangleTree::around(const Vec3& lower, const Vec3& upper) {
+  Box box;
+  for (int k = 0; k < 3; ++k) {
+    box.lower[k] = below(lower[k]);
+    box.upper[k] = above(upper[k]);
+  }
+  return box;
+}
+
+FourTriangles TriangleTree::trianglesOf(Eigen::Index leaf) const {
+  FourTriangles four;
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::Index place = std::min(firstPlace(leaf) + i, firstPlace(leaf + 1) - 1);
+    if (place < 0) break; // no triangles at all
+    const int f = faceAt(place);
+    four.set(i, corner(f, 0), corner(f, 1), corner(f, 2));
+  }
+  return four;
 }
 
 TriangleTree::Box TriangleTree::boxOf(Eigen::Index begin, Eigen::Index end) const {
@@ -264,16 +291,11 @@ TriangleTree::Box TriangleTree::boxOf(Eigen::Index begin, Eigen::Index end) cons
       upper = upper.cwiseMax(p);
     }
   }
-  Box box{Eigen::Array4f::Zero(), Eigen::Array4f::Zero()};
-  for (int k = 0; k < 3; ++k) {
-    box.lower[k] = below(lower[k]);
-    box.upper[k] = above(upper[k]);
-  }
-  return box;
+  return around(lower, upper);
 }
 
-template <class Distance, class Reach, class Visit>
-void TriangleTree::visitNearest(const Distance& distance, const Reach& reach,
+template <class Distances, class Reach, class Visit>
+void TriangleTree::visitNearest(const Distances& distances, const Reach& reach,
                                 const Visit& visit) const {
   struct Entry {
     Eigen::Index node;
@@ -281,20 +303,26 @@ void TriangleTree::visitNearest(const Distance& distance, const Reach& reach,
   };
   Entry stack[64];
   int size = 0;
-  stack[size++] = {1, distance(1)};
+  for (int root = 0; root < roots_; ++root) stack[size++] = {roots_ + root, -kInfinity};
   while (size > 0) {
     const Entry e = stack[--size];
     if (!(e.distance < reach())) continue;
     if (e.node >= leaves_) {
-      const Eigen::Index end = firstPlace(e.node - leaves_ + 1);
-      for (Eigen::Index i = firstPlace(e.node - leaves_); i < end; ++i) visit(faceAt(i));
+      visit(e.node - leaves_);
       continue;
     }
-    Entry near{2 * e.node, distance(2 * e.node)};
-    Entry far{2 * e.node + 1, distance(2 * e.node + 1)};
-    if (far.distance < near.distance) std::swap(near, far);
-    if (far.distance < reach()) stack[size++] = far;
-    if (near.distance < reach()) stack[size++] = near;
+    const auto found = distances(boxes_[static_cast<std::size_t>(e.node)]);
+    const double most = reach();
+    const int first = size; // from here on the nearest comes last
+    for (int k = 0; k < 4; ++k) {
+      const auto distance = static_cast<double>(found[k]);
+      if (!(distance < most)) continue;
+      int place = size++;
+      for (; place > first && stack[place - 1].distance <= distance; --place) {
+        stack[place] = stack[place - 1];
+      }
+      stack[place] = {4 * e.node + k, distance};
+    }
   }
 }
 
@@ -308,8 +336,6 @@ TriangleTree::Hit TriangleTree::nearest(const Vec3& p, double squaredBound, int 
     const Vec3 a = corner(f, 0);
     const Vec3 b = corner(f, 1);
     const Vec3 c = corner(f, 2);
-    const Vec3 gap = (a.cwiseMin(b).cwiseMin(c) - p).cwiseMax(p - a.cwiseMax(b).cwiseMax(c));
-    if (gap.cwiseMax(0.0).squaredNorm() * kBelowRounding >= reach) return;
     const Vec3 point = nearestOnTriangle(p, a, b, c);
     const double distance = (p - point).squaredNorm();
     if (!(distance < best.squaredDistance)) return;
@@ -318,9 +344,18 @@ TriangleTree::Hit TriangleTree::nearest(const Vec3& p, double squaredBound, int 
         distance > squaredExact ? std::max(squaredExact, distance / (kSlack * kSlack)) : distance;
   };
   if (hintFace >= 0) visit(hintFace);
-  const Eigen::Array4f at = asFloats(p);
-  visitNearest([&](Eigen::Index node) { return squaredGap(node, at, at); }, [&] { return reach; },
-               visit);
+  const Box at = around(p, p);
+  visitNearest([&](const FourBoxes& boxes) { return squaredGaps(boxes, at); },
+               [&] { return reach; },
+               [&](Eigen::Index leaf) {
+                 const Lanes atLeast =
+                     triangles_[static_cast<std::size_t>(leaf)].squaredDistances(p, rounding_);
+                 const Eigen::Index begin = firstPlace(leaf);
+                 const Eigen::Index end = firstPlace(leaf + 1);
+                 for (Eigen::Index i = begin; i < end; ++i) {
+                   if (static_cast<double>(atLeast[i - begin]) < reach) visit(faceAt(i));
+                 }
+               });
   return best;
 }
 
@@ -332,24 +367,25 @@ double TriangleTree::squaredDistance(const Vec3& p, int face) const {
 double TriangleTree::squaredDistance(const Vec3& a, const Vec3& b, const Vec3& c,
                                      double squaredBound) const {
   const Vec3 s[3] = {a, b, c};
-  const Vec3 normal = (b - a).cross(c - a);
-  const Eigen::Array4f lower = asFloats(a.cwiseMin(b).cwiseMin(c));
-  const Eigen::Array4f upper = asFloats(a.cwiseMax(b).cwiseMax(c));
+  const LoneTriangle lone(a, b, c);
+  const Box box = around(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c));
   double least = squaredBound;
-  const auto visit = [&](int f) {
-    const Vec3 t[3] = {corner(f, 0), corner(f, 1), corner(f, 2)};
-    if (isFartherAlong(normal, s, t, least) ||
-        isFartherAlong((t[1] - t[0]).cross(t[2] - t[0]), s, t, least)) {
-      return;
+  const auto visit = [&](Eigen::Index leaf) {
+    const Lanes atLeast =
+        lone.squaredDistances(triangles_[static_cast<std::size_t>(leaf)], rounding_);
+    const Eigen::Index begin = firstPlace(leaf);
+    const Eigen::Index end = firstPlace(leaf + 1);
+    for (Eigen::Index i = begin; i < end; ++i) {
+      if (static_cast<double>(atLeast[i - begin]) >= least) continue;
+      const int f = faceAt(i);
+      const Vec3 t[3] = {corner(f, 0), corner(f, 1), corner(f, 2)};
+      // The shortest way to the middle of t is nearly the shortest way, most often.
+      const Vec3 middle = (t[0] + t[1] + t[2]) / 3.0;
+      if (isFartherAlong(middle - nearestOnTriangle(middle, a, b, c), s, t, least)) continue;
+      least = std::min(least, squaredDistanceOfTriangles(s, t));
     }
-    // The shortest way to the middle of t is nearly the shortest way, most often.
-    const Vec3 middle = (t[0] + t[1] + t[2]) / 3.0;
-    if (isFartherAlong(middle - nearestOnTriangle(middle, a, b, c), s, t, least)) {
-      return;
-    }
-    least = std::min(least, squaredDistanceOfTriangles(s, t));
   };
-  visitNearest([&](Eigen::Index node) { return squaredGap(node, lower, upper); },
+  visitNearest([&](const FourBoxes& boxes) { return squaredGaps(boxes, box); },
                [&] { return least; }, visit);
   return least;
 }
@@ -358,21 +394,26 @@ double TriangleTree::firstHit(const Vec3& start, const Vec3& direction, double l
   constexpr double kGrown = 1e-9;
   double best = limit;
   const Vec3 inverse = direction.cwiseInverse();
-  const auto entry = [&](Eigen::Index node) {
-    const Box& box = boxes_[static_cast<std::size_t>(node)];
-    double first = 0.0;
-    double last = best;
+  constexpr double kHuge = std::numeric_limits<double>::max();
+  const auto entries = [&](const FourBoxes& boxes) -> Eigen::Array4d {
+    Eigen::Array4d first = Eigen::Array4d::Zero();
+    Eigen::Array4d last = Eigen::Array4d::Constant(best);
+    Eigen::Array4d beside = Eigen::Array4d::Zero();
     for (int k = 0; k < 3; ++k) {
+      const Eigen::Array4d lower = boxes.lower[k].cast<double>() - start[k];
+      const Eigen::Array4d upper = boxes.upper[k].cast<double>() - start[k];
       if (direction[k] == 0.0) {
-        if (start[k] < box.lower[k] || start[k] > box.upper[k]) return kInfinity;
-        continue;
+        beside = beside.max(lower).max(-upper);
+      } else {
+        const Eigen::Array4d s = lower * inverse[k];
+        const Eigen::Array4d t = upper * inverse[k];
+        first = first.max(s.min(t));
+        last = last.min(s.max(t));
       }
-      const double s = (box.lower[k] - start[k]) * inverse[k];
-      const double t = (box.upper[k] - start[k]) * inverse[k];
-      first = std::max(first, std::min(s, t));
-      last = std::min(last, std::max(s, t));
     }
-    return first <= last * (1.0 + 1e-12) + 1e-15 ? first : kInfinity;
+    const Eigen::Array4d missed = beside.max(first - last * (1.0 + 1e-12) - 1e-15);
+    // Infinite where it is above 0.
+    return first + kHuge * (kHuge * missed);
   };
   const auto visit = [&](int f) {
     const Vec3 a = corner(f, 0);
@@ -394,7 +435,11 @@ double TriangleTree::firstHit(const Vec3& start, const Vec3& direction, double l
     if (t >= 0.0 && t < best) best = t;
   };
   visitNearest(
-      entry, [&] { return best; }, visit);
+      entries, [&] { return best; },
+      [&](Eigen::Index leaf) {
+        const Eigen::Index end = firstPlace(leaf + 1);
+        for (Eigen::Index i = firstPlace(leaf); i < end; ++i) visit(faceAt(i));
+      });
   return best < limit ? best : kInfinity;
 }
 

@@ -1,6 +1,7 @@
 // A hierarchy of boxes around the triangles of a mesh, and what is found with it.
 #pragma once
 
+#include "core/four_triangles.h"
 #include "core/types.h"
 
 #include <algorithm>
@@ -21,13 +22,18 @@ public:
     Any,     ///< the faces come in any order
     Spatial, ///< they come in the order of `spatialOrder`, or nearly so
   };
-  TriangleTree(const Points& vertices, const Faces& faces, Order order = Order::Any);
+  enum class Queries {
+    All,
+    NoDistances, ///< neither `nearest` nor the distance of a triangle, which need more
+  };
+  TriangleTree(const Points& vertices, const Faces& faces, Order order = Order::Any,
+               Queries queries = Queries::All);
 
   const Points& vertices() const { return vertices_; }
   const Faces& faces() const { return faces_; }
   /// Corners of a box around the triangles.
-  Vec3 lower() const { return boxes_[1].lower.head<3>().cast<double>(); }
-  Vec3 upper() const { return boxes_[1].upper.head<3>().cast<double>(); }
+  Vec3 lower() const { return box_.lower.cast<double>(); }
+  Vec3 upper() const { return box_.upper.cast<double>(); }
 
   struct Hit {
     double squaredDistance = std::numeric_limits<double>::infinity();
@@ -57,7 +63,8 @@ public:
   double firstHit(const Vec3& start, const Vec3& direction,
                   double limit = std::numeric_limits<double>::infinity()) const;
 
-  /// Calls visit(i) for the places i ≥ `from` of all triangles whose boxes meet the box.
+  /// Calls visit(i) for the places i ≥ `from` of all triangles whose boxes meet the box, and of
+  /// some of their neighbours.
   template <class Visit>
   void forOverlaps(const Vec3& lower, const Vec3& upper, Eigen::Index from,
                    const Visit& visit) const;
@@ -68,37 +75,51 @@ public:
   }
 
 private:
-  /// Four floats each, the last one 0: a distance takes one instruction a step.
+  /// Around some triangles, or around what is looked for.
   struct Box {
-    Eigen::Array4f lower, upper;
+    Eigen::Array3f lower, upper;
   };
-  /// Calls visit(face) for the triangles in boxes of which `distance`(node) is below `reach`(), the
-  /// nearer ones first; a visit may bring the reach down.
-  template <class Distance, class Reach, class Visit>
-  void visitNearest(const Distance& distance, const Reach& reach, const Visit& visit) const;
-  Eigen::Index firstPlace(Eigen::Index leaf) const { return leaf * faces_.rows() / leaves_; }
-  /// Not more than the squared distance of a node's box from the box lower…upper.
-  double squaredGap(Eigen::Index node, const Eigen::Array4f& lower,
-                    const Eigen::Array4f& upper) const {
-    const Box& box = boxes_[static_cast<std::size_t>(node)];
-    const Eigen::Array4f outside = (box.lower - upper).max(lower - box.upper) - rounding_;
-    // What floats cannot tell counts as no gap.
-    const float sum = Eigen::Array4f::Zero().max(outside).square().sum();
-    if (!(sum >= std::numeric_limits<float>::min())) return 0.0;
-    return kBelowRounding * static_cast<double>(std::min(sum, std::numeric_limits<float>::max()));
-  }
+  /// Side by side: a distance from all of them takes one instruction a step.
+  struct FourBoxes {
+    Eigen::Array4f lower[3], upper[3];
+  };
+
+  static Box around(const Vec3& lower, const Vec3& upper);
   Box boxOf(Eigen::Index begin, Eigen::Index end) const;
+  FourTriangles trianglesOf(Eigen::Index leaf) const;
+  /// Calls visit(leaf) for the leaves in boxes of which `distances`(four boxes) are below
+  /// `reach`(), the nearer ones first; a visit may bring the reach down.
+  template <class Distances, class Reach, class Visit>
+  void visitNearest(const Distances& distances, const Reach& reach, const Visit& visit) const;
+  Eigen::Index firstPlace(Eigen::Index leaf) const { return leaf * faces_.rows() / leaves_; }
+  /// Not more than the squared distances of the boxes from `other`.
+  Eigen::Array4f squaredGaps(const FourBoxes& boxes, const Box& other) const {
+    Eigen::Array4f sum = Eigen::Array4f::Zero();
+    for (int k = 0; k < 3; ++k) {
+      // What floats cannot tell counts as no gap.
+      const Eigen::Array4f outside =
+          (boxes.lower[k] - other.upper[k]).max(other.lower[k] - boxes.upper[k]) - rounding_;
+      sum += Eigen::Array4f::Zero().max(outside).square();
+    }
+    return kBelowRounding *
+           (sum - std::numeric_limits<float>::min()).min(std::numeric_limits<float>::max());
+  }
   Vec3 corner(int face, int k) const { return vertices_.row(faces_(face, k)).transpose(); }
 
   const Points& vertices_;
   const Faces& faces_;
   std::vector<int> order_;  ///< empty: as given
   Eigen::Index leaves_ = 1; ///< a power of two
-  std::vector<Box> boxes_;  ///< children of i: 2i, 2i + 1; the root is 1
+  /// The nodes' numbers: the root is 1, the children of i are 2i and 2i + 1. Entry i holds the
+  /// boxes of its grandchildren 4i … 4i + 3; every other level is passed over.
+  std::vector<FourBoxes> boxes_;
+  int roots_ = 1; ///< where a walk begins, for it to end at the leaves: node 1, or nodes 2 and 3
+  std::vector<FourTriangles> triangles_; ///< of the leaves
+  Box box_;                              ///< around all
   /// More than the boxes lose as floats; what far points lose is a share of the gap, as are the
   /// roundings of its square.
   float rounding_ = 0.0F;
-  static constexpr double kBelowRounding = 1.0 - 1e-6;
+  static constexpr float kBelowRounding = 1.0F - 2e-6F;
 };
 
 /// The point of the triangle (a, b, c) next to p, by its weights at the corners. [Eri05,
@@ -108,29 +129,34 @@ Vec3 nearestWeights(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 template <class Visit>
 void TriangleTree::forOverlaps(const Vec3& lower, const Vec3& upper, Eigen::Index from,
                                const Visit& visit) const {
-  const auto meets = [&](const Box& box) {
-    return lower.x() <= box.upper[0] && upper.x() >= box.lower[0] && lower.y() <= box.upper[1] &&
-           upper.y() >= box.lower[1] && lower.z() <= box.upper[2] && upper.z() >= box.lower[2];
-  };
-  // Nodes with the number of leaves below them.
-  struct Entry {
+  const Box box = around(lower, upper);
+  // Nodes with the leaves below them.
+  struct Range {
     Eigen::Index node, firstLeaf, leaves;
   };
-  Entry stack[64];
+  Range stack[64];
   int size = 0;
-  stack[size++] = {1, 0, leaves_};
+  for (int root = roots_ - 1; root >= 0; --root) {
+    stack[size++] = {roots_ + root, root * leaves_ / roots_, leaves_ / roots_};
+  }
   while (size > 0) {
-    const Entry e = stack[--size];
-    if (firstPlace(e.firstLeaf + e.leaves) <= from) continue;
-    if (!meets(boxes_[static_cast<std::size_t>(e.node)])) continue;
-    if (e.leaves > 1) {
-      const Eigen::Index half = e.leaves / 2;
-      stack[size++] = {2 * e.node + 1, e.firstLeaf + half, half};
-      stack[size++] = {2 * e.node, e.firstLeaf, half};
+    const Range e = stack[--size];
+    if (e.node >= leaves_) {
+      const Eigen::Index end = firstPlace(e.firstLeaf + 1);
+      for (Eigen::Index i = std::max(from, firstPlace(e.firstLeaf)); i < end; ++i) visit(i);
       continue;
     }
-    const Eigen::Index end = firstPlace(e.firstLeaf + 1);
-    for (Eigen::Index i = std::max(from, firstPlace(e.firstLeaf)); i < end; ++i) visit(i);
+    const FourBoxes& boxes = boxes_[static_cast<std::size_t>(e.node)];
+    Eigen::Array4f gap = Eigen::Array4f::Constant(-std::numeric_limits<float>::infinity());
+    for (int k = 0; k < 3; ++k) {
+      gap = gap.max(boxes.lower[k] - box.upper[k]).max(box.lower[k] - boxes.upper[k]);
+    }
+    const Eigen::Index quarter = e.leaves / 4;
+    for (int k = 3; k >= 0; --k) {
+      const Eigen::Index firstLeaf = e.firstLeaf + k * quarter;
+      if (gap[k] > 0.0F || firstPlace(firstLeaf + quarter) <= from) continue;
+      stack[size++] = {4 * e.node + k, firstLeaf, quarter};
+    }
   }
 }
 

@@ -34,7 +34,8 @@ struct Normal {
 class SelfIntersections {
 public:
   SelfIntersections(const Points& vertices, const Faces& faces, TriangleTree::Order order)
-      : x_(vertices), faces_(faces), tree_(vertices, faces, order),
+      : x_(vertices), faces_(faces),
+        tree_(vertices, faces, order, TriangleTree::Queries::NoDistances),
         opposite_(oppositeHalfEdges(vertices.rows(), faces)),
         isEmbedded_(static_cast<std::size_t>(vertices.rows())) {}
 

@@ -1,0 +1,108 @@
+#include "core/four_triangles.h"
+
+#include <limits>
+
+namespace massprops {
+namespace {
+
+using Vectors = FourTriangles::Vectors;
+
+constexpr float kUnits = 16.0F * std::numeric_limits<float>::epsilon();
+
+Vectors operator-(const Vectors& a, const Vectors& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+Lanes dot(const Vectors& a, const Vectors& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+Vectors cross(const Vectors& a, const Vectors& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+Vectors same(const Vec3& p) {
+  const Eigen::Vector3f f = p.cast<float>();
+  return {Lanes::Constant(f.x()), Lanes::Constant(f.y()), Lanes::Constant(f.z())};
+}
+
+Lanes absSum(const Vectors& a) {
+  return a.x.abs() + a.y.abs() + a.z.abs();
+}
+
+Lanes absMax(const Vectors& a) {
+  return a.x.abs().max(a.y.abs()).max(a.z.abs());
+}
+
+Lanes leastOf(const Lanes& a, const Lanes& b, const Lanes& c) {
+  return a.min(b).min(c);
+}
+
+Lanes mostOf(const Lanes& a, const Lanes& b, const Lanes& c) {
+  return a.max(b).max(c);
+}
+
+/// Of intervals along axes, `gap` of them; whatever the axes are, they are true. Squares that
+/// floats cannot hold count as the least and the greatest that they can.
+Lanes squaredLength(const Lanes& gap, const Vectors& axis) {
+  constexpr float kLeast = 1e-30F;
+  const Lanes length = Lanes::Zero().max(gap) / dot(axis, axis).max(kLeast).sqrt();
+  return (1.0F - kUnits) * length.square();
+}
+
+Lanes finite(const Lanes& squares) {
+  return Lanes::Zero().max(squares).min((1.0F - kUnits) * std::numeric_limits<float>::max());
+}
+
+} // namespace
+
+void FourTriangles::set(int i, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3* const all[3] = {&a, &b, &c};
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3f p = all[k]->cast<float>();
+    corners_[k].x[i] = p.x();
+    corners_[k].y[i] = p.y();
+    corners_[k].z[i] = p.z();
+  }
+}
+
+Lanes FourTriangles::squaredDistances(const Vec3& p, float rounding) const {
+  const Vectors origin = same(p);
+  const Vectors t[3] = {corners_[0] - origin, corners_[1] - origin, corners_[2] - origin};
+  const Lanes size = mostOf(absMax(t[0]), absMax(t[1]), absMax(t[2]));
+  const Lanes error = rounding + kUnits * size;
+  const auto gap = [](const Lanes& a, const Lanes& b, const Lanes& c) -> Lanes {
+    return leastOf(a, b, c).max(-mostOf(a, b, c));
+  };
+  const Lanes x = Lanes::Zero().max(gap(t[0].x, t[1].x, t[2].x) - error);
+  const Lanes y = Lanes::Zero().max(gap(t[0].y, t[1].y, t[2].y) - error);
+  const Lanes z = Lanes::Zero().max(gap(t[0].z, t[1].z, t[2].z) - error);
+  const Lanes ofBoxes = (1.0F - kUnits) * (x.square() + y.square() + z.square());
+  const Vectors normal = cross(t[1] - t[0], t[2] - t[0]);
+  const Lanes above = gap(dot(normal, t[0]), dot(normal, t[1]), dot(normal, t[2]));
+  return finite(ofBoxes.max(squaredLength(above - error * absSum(normal), normal)));
+}
+
+LoneTriangle::LoneTriangle(const Vec3& a, const Vec3& b, const Vec3& c)
+    : a_(same(a)), b_(same(b) - a_), c_(same(c) - a_), normal_(cross(b_, c_)),
+      size_(absMax(b_).max(absMax(c_))) {}
+
+Lanes LoneTriangle::squaredDistances(const FourTriangles& triangles, float rounding) const {
+  const Vectors t[3] = {triangles.corner(0) - a_, triangles.corner(1) - a_,
+                        triangles.corner(2) - a_};
+  const Lanes size = mostOf(absMax(t[0]), absMax(t[1]), absMax(t[2])).max(size_);
+  const Lanes error = rounding + kUnits * size;
+  const auto along = [&](const Vectors& axis) -> Lanes {
+    const Lanes p = dot(axis, t[0]);
+    const Lanes q = dot(axis, t[1]);
+    const Lanes r = dot(axis, t[2]);
+    const Lanes b = dot(axis, b_);
+    const Lanes c = dot(axis, c_);
+    const Lanes gap =
+        (leastOf(p, q, r) - b.max(c).max(0.0F)).max(b.min(c).min(0.0F) - mostOf(p, q, r));
+    return squaredLength(gap - error * absSum(axis), axis);
+  };
+  return finite(along(normal_).max(along(cross(t[1] - t[0], t[2] - t[0]))));
+}
+
+} // namespace massprops
