@@ -48,8 +48,7 @@ Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleT
   Clearance clearance = clearanceOf(inner, innerFaces, outer, kHorizon * wall, memory);
   inspection.crossing = verticesOf(innerFaces, {&clearance.crossing, &folded, &flat});
   if (outerMoved) {
-    const std::vector<int> outerFolds =
-        selfIntersectingFaces(outer.vertices(), outer.faces(), TriangleTree::Order::Spatial);
+    const std::vector<int> outerFolds = selfIntersectingFaces(outer);
     inspection.outerCrossing = verticesOf(outer.faces(), {&outerFolds});
   }
 

@@ -123,7 +123,7 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   Stages stages;
 
   tell(0, "Checking the model");
-  const Solid solid = makeSolid(model, options.openSurface);
+  const Solid solid = makeSolid(model, options.openSurface, rotationToUp(options.upAxis));
   requireSensible(options, solid.vertices().rows(), solid.diagonal());
   const Workpiece piece = makeWorkpiece(solid, options);
   if (piece.open) requireSensibleForShell(options);

@@ -1,6 +1,7 @@
 #include "core/solid.h"
 
 #include "core/components.h"
+#include "core/frame.h"
 #include "core/half_edges.h"
 #include "core/lids.h"
 #include "core/moments.h"
@@ -100,9 +101,18 @@ void requireManifoldVertices(const TriangleMesh& mesh) {
   }
 }
 
+std::vector<int> orderInSpace(const Points& vertices, const Faces& faces, const Mat3& rotation,
+                              double diagonal) {
+  const Points turned = vertices * rotation.transpose();
+  const Eigen::RowVector3d corner = turned.colwise().minCoeff();
+  return spatialOrder(snapped((turned.rowwise() - corner) / diagonal), faces);
+}
+
 /// `skinFaces`: those before the lids.
-void requireNoSelfIntersection(const TriangleMesh& mesh, Eigen::Index skinFaces) {
-  const std::vector<int> faces = selfIntersectingFaces(mesh.vertices, mesh.faces);
+void requireNoSelfIntersection(const TriangleMesh& mesh, const std::vector<int>& facesInSpace,
+                               Eigen::Index skinFaces) {
+  const std::vector<int> faces = selfIntersectingFaces(
+      TriangleTree(mesh.vertices, mesh.faces, facesInSpace, TriangleTree::Queries::NoDistances));
   const std::size_t crossing = faces.size();
   if (crossing > 0 && faces.back() >= skinFaces) {
     throw InvalidInput(
@@ -194,7 +204,7 @@ Faces stacked(const std::vector<Faces>& parts) {
 
 } // namespace
 
-Solid makeSolid(const TriangleMesh& input, bool closeOpenings) {
+Solid makeSolid(const TriangleMesh& input, bool closeOpenings, const Mat3& rotation) {
   requireFiniteTriangles(input);
   RepairedMesh repaired = mergedAndCompacted(input);
   if (repaired.mesh.faces.rows() == 0) {
@@ -230,7 +240,9 @@ Solid makeSolid(const TriangleMesh& input, bool closeOpenings) {
                          "is a solid body.");
     }
   }
-  requireNoSelfIntersection(mesh, boundary > 0 ? skinFaces : mesh.faces.rows());
+  solid.facesInSpace_ = orderInSpace(mesh.vertices, mesh.faces, rotation, solid.diagonal_);
+  requireNoSelfIntersection(mesh, solid.facesInSpace_,
+                            boundary > 0 ? skinFaces : mesh.faces.rows());
   const std::vector<int> depths = nestingDepths(mesh.vertices, components);
   std::vector<Faces> bodies;
   std::vector<Faces> cavities;
@@ -255,6 +267,11 @@ Solid makeSolid(const TriangleMesh& input, bool closeOpenings) {
   if (boundary > 0)
     solid.isLid_ = marksOf(body, mesh.faces.bottomRows(mesh.faces.rows() - skinFaces));
   solid.mesh_ = body.mesh;
+  if (components.size() > 1) {
+    // Their faces were renumbered, and cavities must not show.
+    solid.facesInSpace_ =
+        orderInSpace(body.mesh.vertices, body.mesh.faces, rotation, solid.diagonal_);
+  }
   solid.cavities_ = submesh(mesh.vertices, stacked(cavities)).mesh;
   return solid;
 }

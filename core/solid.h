@@ -23,20 +23,25 @@ public:
   /// For every face whether it is one of a lid that closes an opening of the input; empty when the
   /// input was closed.
   const std::vector<char>& isLid() const { return isLid_; }
+  /// The faces' numbers in the order of `spatialOrder`, seen in the turned frame.
+  const std::vector<int>& facesInSpace() const { return facesInSpace_; }
 
 private:
-  friend Solid makeSolid(const TriangleMesh& input, bool closeOpenings);
+  friend Solid makeSolid(const TriangleMesh& input, bool closeOpenings, const Mat3& rotation);
   TriangleMesh mesh_;
   TriangleMesh cavities_;
   double diagonal_ = 0.0;
   Repairs repairs_;
   std::vector<char> isLid_;
+  std::vector<int> facesInSpace_;
 };
 
 /// Mends what `repair.h` mends, turns components round that face the wrong way throughout, and sets
 /// components that lie inside of another one aside as existing cavities.
 /// `closeOpenings`: boundary loops get lids (lids.h); otherwise an open surface is refused.
+/// `rotation`: of the frame in which `facesInSpace` is the same for a model that is turned.
 /// \throw InvalidInput with the number of defects and the MeshLab filter that mends them
-Solid makeSolid(const TriangleMesh& input, bool closeOpenings = false);
+Solid makeSolid(const TriangleMesh& input, bool closeOpenings = false,
+                const Mat3& rotation = Mat3::Identity());
 
 } // namespace massprops

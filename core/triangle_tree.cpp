@@ -226,8 +226,14 @@ std::vector<int> spatialOrder(const Points& vertices, const Faces& faces) {
 }
 
 TriangleTree::TriangleTree(const Points& vertices, const Faces& faces, Order order, Queries queries)
-    : vertices_(vertices), faces_(faces), leaves_(leafCount(faces.rows())) {
-  if (order == Order::Any) order_ = spatialOrder(vertices, faces);
+    : TriangleTree(vertices, faces,
+                   order == Order::Any ? spatialOrder(vertices, faces) : std::vector<int>(),
+                   queries) {}
+
+TriangleTree::TriangleTree(const Points& vertices, const Faces& faces, std::vector<int> order,
+                           Queries queries)
+    : vertices_(vertices), faces_(faces), order_(std::move(order)),
+      leaves_(leafCount(faces.rows())) {
   if (queries == Queries::All) triangles_.resize(static_cast<std::size_t>(leaves_));
   std::vector<Box> level(static_cast<std::size_t>(leaves_));
   forChunks(leaves_, kChunk, [&](const Chunk& chunk) {

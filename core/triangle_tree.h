@@ -29,6 +29,9 @@ public:
   TriangleTree(const Points& vertices, const Faces& faces, Order order = Order::Any,
                Queries queries = Queries::All);
 
+  /// \param order of the faces, that of `spatialOrder` or nearly so
+  TriangleTree(const Points& vertices, const Faces& faces, std::vector<int> order, Queries queries);
+
   const Points& vertices() const { return vertices_; }
   const Faces& faces() const { return faces_; }
   /// Corners of a box around the triangles.

@@ -33,11 +33,10 @@ struct Normal {
 /// Looks for crossings of one surface with itself.
 class SelfIntersections {
 public:
-  SelfIntersections(const Points& vertices, const Faces& faces, TriangleTree::Order order)
-      : x_(vertices), faces_(faces),
-        tree_(vertices, faces, order, TriangleTree::Queries::NoDistances),
-        opposite_(oppositeHalfEdges(vertices.rows(), faces)),
-        isEmbedded_(static_cast<std::size_t>(vertices.rows())) {}
+  explicit SelfIntersections(const TriangleTree& surface)
+      : x_(surface.vertices()), faces_(surface.faces()), tree_(surface),
+        opposite_(oppositeHalfEdges(x_.rows(), faces_)),
+        isEmbedded_(static_cast<std::size_t>(x_.rows())) {}
 
   std::vector<int> find() {
     findEmbeddedFans();
@@ -349,7 +348,7 @@ private:
 
   const Points& x_;
   const Faces& faces_;
-  TriangleTree tree_;
+  const TriangleTree& tree_;
   std::vector<int> opposite_;
   std::vector<char> isEmbedded_;
 };
@@ -457,7 +456,12 @@ std::optional<bool> sideOfNearest(const Vec3& p, int nearestFace, const Triangle
 
 std::vector<int> selfIntersectingFaces(const Points& vertices, const Faces& faces,
                                        TriangleTree::Order order) {
-  return SelfIntersections(vertices, faces, order).find();
+  return selfIntersectingFaces(
+      TriangleTree(vertices, faces, order, TriangleTree::Queries::NoDistances));
+}
+
+std::vector<int> selfIntersectingFaces(const TriangleTree& surface) {
+  return SelfIntersections(surface).find();
 }
 
 std::vector<int> facesWithoutArea(const Points& vertices, const Faces& faces) {
