@@ -42,16 +42,22 @@ Lanes mostOf(const Lanes& a, const Lanes& b, const Lanes& c) {
   return a.max(b).max(c);
 }
 
-/// Of intervals along axes, `gap` of them; whatever the axes are, they are true. Squares that
-/// floats cannot hold count as the least and the greatest that they can.
-Lanes squaredLength(const Lanes& gap, const Vectors& axis) {
+/// Of the gaps between what two bodies of this `size` cast on an axis of any length: no more than
+/// their distance, whatever the axis is. Short axes, whose squares floats cannot hold, count as
+/// longer, and gaps that come of products which floats cannot hold as none.
+Lanes squaredLength(const Lanes& gap, const Vectors& axis, const Lanes& size) {
   constexpr float kLeast = 1e-30F;
-  const Lanes length = Lanes::Zero().max(gap) / dot(axis, axis).max(kLeast).sqrt();
+  constexpr float kMost = 1e37F;
+  const Lanes held = Lanes::Zero().max(kMost - absSum(axis) * size);
+  const Lanes length = Lanes::Zero().max(gap).min(held) / dot(axis, axis).max(kLeast).sqrt();
   return (1.0F - kUnits) * length.square();
 }
 
-Lanes finite(const Lanes& squares) {
-  return Lanes::Zero().max(squares).min((1.0F - kUnits) * std::numeric_limits<float>::max());
+/// Lower bounds that floats hold: of their least numbers, which are rounded up, nothing is left.
+Lanes certain(const Lanes& squares) {
+  return Lanes::Zero()
+      .max(squares - std::numeric_limits<float>::min())
+      .min((1.0F - kUnits) * std::numeric_limits<float>::max());
 }
 
 } // namespace
@@ -80,7 +86,8 @@ Lanes FourTriangles::squaredDistances(const Vec3& p, float rounding) const {
   const Lanes ofBoxes = (1.0F - kUnits) * (x.square() + y.square() + z.square());
   const Vectors normal = cross(t[1] - t[0], t[2] - t[0]);
   const Lanes above = gap(dot(normal, t[0]), dot(normal, t[1]), dot(normal, t[2]));
-  return finite(ofBoxes.max(squaredLength(above - error * absSum(normal), normal)));
+  const Lanes ofPlanes = squaredLength(above - error * absSum(normal), normal, size);
+  return certain(ofBoxes.max(ofPlanes));
 }
 
 LoneTriangle::LoneTriangle(const Vec3& a, const Vec3& b, const Vec3& c)
@@ -100,9 +107,10 @@ Lanes LoneTriangle::squaredDistances(const FourTriangles& triangles, float round
     const Lanes c = dot(axis, c_);
     const Lanes gap =
         (leastOf(p, q, r) - b.max(c).max(0.0F)).max(b.min(c).min(0.0F) - mostOf(p, q, r));
-    return squaredLength(gap - error * absSum(axis), axis);
+    return squaredLength(gap - error * absSum(axis), axis, size);
   };
-  return finite(along(normal_).max(along(cross(t[1] - t[0], t[2] - t[0]))));
+  const Lanes ofNormals = along(cross(t[1] - t[0], t[2] - t[0]));
+  return certain(along(normal_).max(ofNormals));
 }
 
 } // namespace massprops

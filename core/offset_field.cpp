@@ -131,7 +131,9 @@ OffsetField offsetField(const Points& vertices, const Faces& faces, const Points
       field.meanClearance[v] = std::max(clearance, mean.stableNormalized().dot(direction));
     }
   });
-  const Vector through = chords(TriangleTree(vertices, faces), vertices, -field.directions);
+  const TriangleTree tree(vertices, faces, TriangleTree::Order::Any,
+                          TriangleTree::Queries::NoDistances);
+  const Vector through = chords(tree, vertices, -field.directions);
   field.reach = lipschitzBelow(vertices, vertexNeighbours(vertices.rows(), faces),
                                field.reach.cwiseMin(kShareOfChord * through), kReachSlope);
   return field;

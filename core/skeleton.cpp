@@ -193,8 +193,9 @@ Points halfWayThrough(const Points& vertices, const Faces& faces) {
     for (const int v : faces.row(f)) inward.row(v) -= (b - a).cross(c - a).transpose();
   }
   inward.rowwise().normalize();
-  const Vector half =
-      0.5 * chords(TriangleTree(vertices, faces), vertices, inward).cwiseMin(diagonalOf(vertices));
+  const TriangleTree tree(vertices, faces, TriangleTree::Order::Any,
+                          TriangleTree::Queries::NoDistances);
+  const Vector half = 0.5 * chords(tree, vertices, inward).cwiseMin(diagonalOf(vertices));
   return vertices + half.asDiagonal() * inward;
 }
 

@@ -359,7 +359,7 @@ TriangleTree::Hit TriangleTree::nearest(const Vec3& p, double squaredBound, int 
                  const Eigen::Index begin = firstPlace(leaf);
                  const Eigen::Index end = firstPlace(leaf + 1);
                  for (Eigen::Index i = begin; i < end; ++i) {
-                   if (static_cast<double>(atLeast[i - begin]) < reach) visit(faceAt(i));
+                   if (!(static_cast<double>(atLeast[i - begin]) >= reach)) visit(faceAt(i));
                  }
                });
   return best;

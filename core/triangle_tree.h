@@ -91,7 +91,7 @@ private:
   Box boxOf(Eigen::Index begin, Eigen::Index end) const;
   FourTriangles trianglesOf(Eigen::Index leaf) const;
   /// Calls visit(leaf) for the leaves in boxes of which `distances`(four boxes) are below
-  /// `reach`(), the nearer ones first; a visit may bring the reach down.
+  /// `reach`(), of four the nearer ones first; a visit may bring the reach down.
   template <class Distances, class Reach, class Visit>
   void visitNearest(const Distances& distances, const Reach& reach, const Visit& visit) const;
   Eigen::Index firstPlace(Eigen::Index leaf) const { return leaf * faces_.rows() / leaves_; }
@@ -104,8 +104,9 @@ private:
           (boxes.lower[k] - other.upper[k]).max(other.lower[k] - boxes.upper[k]) - rounding_;
       sum += Eigen::Array4f::Zero().max(outside).square();
     }
-    return kBelowRounding *
-           (sum - std::numeric_limits<float>::min()).min(std::numeric_limits<float>::max());
+    return kBelowRounding * Eigen::Array4f::Zero()
+                                .max(sum - std::numeric_limits<float>::min())
+                                .min(std::numeric_limits<float>::max());
   }
   Vec3 corner(int face, int k) const { return vertices_.row(faces_(face, k)).transpose(); }
 

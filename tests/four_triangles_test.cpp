@@ -80,10 +80,24 @@ INSTANTIATE_TEST_SUITE_P(SizesAndPlaces, FourTrianglesTest,
                          ::testing::Values(std::pair<double, Vec3>{1.0, {0, 0, 0}},
                                            std::pair<double, Vec3>{1.0, {3e5, -2e5, 1e5}},
                                            std::pair<double, Vec3>{1e-9, {0, 0, 0}},
-                                           std::pair<double, Vec3>{1e-25, {0, 0, 0}},
+                                           std::pair<double, Vec3>{1e-21, {0, 0, 0}},
+                                           std::pair<double, Vec3>{1e-22, {0, 0, 0}},
+                                           std::pair<double, Vec3>{3e-23, {0, 0, 0}},
                                            std::pair<double, Vec3>{3e9, {20, 0, 30}},
                                            std::pair<double, Vec3>{1e18, {0, 0, 0}},
                                            std::pair<double, Vec3>{1e25, {0, 0, 0}}));
+
+// Products are too large for floats while squares of the axes are not.
+TEST(FourTriangles, AreNotFarWhereTheyCrossHoweverLargeTheyAre) {
+  const LoneTriangle lone({-1e9, 1e9, -1e9}, {2e9, -2e9, -1e9}, {-1e9, 1e9, 2e9});
+  FourTriangles four;
+  for (int i = 0; i < 4; ++i)
+    four.set(i, {-2e18, 3e18, -1e18}, {1e20, -1.5e20, 0}, {-2e18, 3e18, 1e18});
+  EXPECT_EQ(lone.squaredDistances(four, 1e14F).maxCoeff(), 0.0F);
+  for (int i = 0; i < 4; ++i)
+    four.set(i, {2.7e19, -2.6e19, 0}, {-2.6e19, 2.7e19, 0}, {2.7e19, -2.6e19, 0.24});
+  EXPECT_LE(four.squaredDistances(Vec3::Zero(), 0.0F).maxCoeff(), 5e35F);
+}
 
 TEST(FourTriangles, TellNearlyTheDistanceAcrossTheirPlanes) {
   const Mat3 turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();

@@ -7,8 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace massprops::testing {
 namespace {
@@ -203,6 +205,26 @@ TEST(MakeSolid, SetsExistingCavitiesAside) {
     EXPECT_NEAR(volumeOf(solid.cavities().vertices, solid.cavities().faces),
                 -volumeOf(body.vertices, body.faces) / 8, 1e-12);
   }
+}
+
+TEST(MakeSolid, OrdersTheFacesInSpaceAsInTheTurnedFrame) {
+  const TriangleMesh body = blob(4);
+  const TriangleMesh two = joined(body, transformed(blob(2), Mat3::Identity(), {5, 0, 0}));
+  Mat3 turn;
+  turn << 1, 0, 0, 0, -1, 0, 0, 0, -1;
+  for (const TriangleMesh& mesh : {body, two}) {
+    const std::vector<int> order = makeSolid(mesh).facesInSpace();
+    std::vector<int> sorted = order;
+    std::sort(sorted.begin(), sorted.end());
+    ASSERT_EQ(static_cast<Eigen::Index>(sorted.size()), mesh.faces.rows());
+    for (std::size_t f = 0; f < sorted.size(); ++f) EXPECT_EQ(sorted[f], static_cast<int>(f));
+    const TriangleMesh turned = transformed(mesh, turn.transpose(), {1, 2, 3});
+    EXPECT_EQ(makeSolid(turned, false, turn).facesInSpace(), order);
+    EXPECT_NE(makeSolid(turned).facesInSpace(), order);
+  }
+  // A cavity does not show.
+  EXPECT_EQ(makeSolid(joined(body, nested(body, 0.5, true))).facesInSpace(),
+            makeSolid(body).facesInSpace());
 }
 
 TEST(MakeSolid, WorksInAnySizeAndPlace) {
