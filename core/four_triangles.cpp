@@ -21,7 +21,7 @@ Vectors cross(const Vectors& a, const Vectors& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-Vectors same(const Vec3& p) {
+Vectors broadcast(const Vec3& p) {
   const Eigen::Vector3f f = p.cast<float>();
   return {Lanes::Constant(f.x()), Lanes::Constant(f.y()), Lanes::Constant(f.z())};
 }
@@ -73,7 +73,7 @@ void FourTriangles::set(int i, const Vec3& a, const Vec3& b, const Vec3& c) {
 }
 
 Lanes FourTriangles::squaredDistances(const Vec3& p, float rounding) const {
-  const Vectors origin = same(p);
+  const Vectors origin = broadcast(p);
   const Vectors t[3] = {corners_[0] - origin, corners_[1] - origin, corners_[2] - origin};
   const Lanes size = mostOf(absMax(t[0]), absMax(t[1]), absMax(t[2]));
   const Lanes error = rounding + kUnits * size;
@@ -90,11 +90,11 @@ Lanes FourTriangles::squaredDistances(const Vec3& p, float rounding) const {
   return certain(ofBoxes.max(ofPlanes));
 }
 
-LoneTriangle::LoneTriangle(const Vec3& a, const Vec3& b, const Vec3& c)
-    : a_(same(a)), b_(same(b) - a_), c_(same(c) - a_), normal_(cross(b_, c_)),
+QueryTriangle::QueryTriangle(const Vec3& a, const Vec3& b, const Vec3& c)
+    : a_(broadcast(a)), b_(broadcast(b) - a_), c_(broadcast(c) - a_), normal_(cross(b_, c_)),
       size_(absMax(b_).max(absMax(c_))) {}
 
-Lanes LoneTriangle::squaredDistances(const FourTriangles& triangles, float rounding) const {
+Lanes QueryTriangle::squaredDistances(const FourTriangles& triangles, float rounding) const {
   const Vectors t[3] = {triangles.corner(0) - a_, triangles.corner(1) - a_,
                         triangles.corner(2) - a_};
   const Lanes size = mostOf(absMax(t[0]), absMax(t[1]), absMax(t[2])).max(size_);

@@ -6,21 +6,21 @@
 
 namespace massprops {
 
-/// A number for each of four triangles.
+/// A number for each of four.
 using Lanes = Eigen::Array4f;
 
-/// Bounds make room for their rounding; `rounding` is what coordinates lost when they became
-/// floats, 8 units of the largest of them.
+/// Distances are in the unit of the corners. Bounds make room for their rounding; `rounding` is
+/// what coordinates lose as floats: 8 units in the last place of the largest of the four triangles.
 class FourTriangles {
 public:
-  /// `i`: 0…3
+  /// Triangle i, 0…3. Those that are not set lie in the origin.
   void set(int i, const Vec3& a, const Vec3& b, const Vec3& c);
 
   /// Not more than the squared distances from a point: those of boxes and planes.
   Lanes squaredDistances(const Vec3& p, float rounding) const;
 
   struct Vectors {
-    Lanes x, y, z;
+    Lanes x = Lanes::Zero(), y = Lanes::Zero(), z = Lanes::Zero();
   };
   const Vectors& corner(int k) const { return corners_[k]; }
 
@@ -28,10 +28,10 @@ private:
   Vectors corners_[3];
 };
 
-/// A triangle as the four see it.
-class LoneTriangle {
+/// The triangle (a, b, c), to be compared with four at a time.
+class QueryTriangle {
 public:
-  LoneTriangle(const Vec3& a, const Vec3& b, const Vec3& c);
+  QueryTriangle(const Vec3& a, const Vec3& b, const Vec3& c);
 
   /// Not more than the squared distances from the triangles: the gaps along the normals.
   Lanes squaredDistances(const FourTriangles& triangles, float rounding) const;

@@ -2,6 +2,7 @@
 
 #include "core/cavity_search.h"
 #include "core/components.h"
+#include "core/frame.h"
 #include "core/harmonics.h"
 #include "core/hollowing_report.h"
 #include "core/laplacian.h"

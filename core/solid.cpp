@@ -109,10 +109,10 @@ std::vector<int> orderInSpace(const Points& vertices, const Faces& faces, const 
 }
 
 /// `skinFaces`: those before the lids.
-void requireNoSelfIntersection(const TriangleMesh& mesh, const std::vector<int>& facesInSpace,
+void requireNoSelfIntersection(const TriangleMesh& mesh, const std::vector<int>& spatialFaceOrder,
                                Eigen::Index skinFaces) {
-  const std::vector<int> faces = selfIntersectingFaces(
-      TriangleTree(mesh.vertices, mesh.faces, facesInSpace, TriangleTree::Queries::NoDistances));
+  const std::vector<int> faces = selfIntersectingFaces(TriangleTree(
+      mesh.vertices, mesh.faces, spatialFaceOrder, TriangleTree::Queries::NoDistances));
   const std::size_t crossing = faces.size();
   if (crossing > 0 && faces.back() >= skinFaces) {
     throw InvalidInput(
@@ -240,8 +240,8 @@ Solid makeSolid(const TriangleMesh& input, bool closeOpenings, const Mat3& rotat
                          "is a solid body.");
     }
   }
-  solid.facesInSpace_ = orderInSpace(mesh.vertices, mesh.faces, rotation, solid.diagonal_);
-  requireNoSelfIntersection(mesh, solid.facesInSpace_,
+  solid.spatialFaceOrder_ = orderInSpace(mesh.vertices, mesh.faces, rotation, solid.diagonal_);
+  requireNoSelfIntersection(mesh, solid.spatialFaceOrder_,
                             boundary > 0 ? skinFaces : mesh.faces.rows());
   const std::vector<int> depths = nestingDepths(mesh.vertices, components);
   std::vector<Faces> bodies;
@@ -269,7 +269,7 @@ Solid makeSolid(const TriangleMesh& input, bool closeOpenings, const Mat3& rotat
   solid.mesh_ = body.mesh;
   if (components.size() > 1) {
     // Their faces were renumbered, and cavities must not show.
-    solid.facesInSpace_ =
+    solid.spatialFaceOrder_ =
         orderInSpace(body.mesh.vertices, body.mesh.faces, rotation, solid.diagonal_);
   }
   solid.cavities_ = submesh(mesh.vertices, stacked(cavities)).mesh;

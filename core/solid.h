@@ -24,7 +24,7 @@ public:
   /// input was closed.
   const std::vector<char>& isLid() const { return isLid_; }
   /// The faces' numbers in the order of `spatialOrder`, seen in the turned frame.
-  const std::vector<int>& facesInSpace() const { return facesInSpace_; }
+  const std::vector<int>& spatialFaceOrder() const { return spatialFaceOrder_; }
 
 private:
   friend Solid makeSolid(const TriangleMesh& input, bool closeOpenings, const Mat3& rotation);
@@ -33,13 +33,13 @@ private:
   double diagonal_ = 0.0;
   Repairs repairs_;
   std::vector<char> isLid_;
-  std::vector<int> facesInSpace_;
+  std::vector<int> spatialFaceOrder_;
 };
 
 /// Mends what `repair.h` mends, turns components round that face the wrong way throughout, and sets
 /// components that lie inside of another one aside as existing cavities.
 /// `closeOpenings`: boundary loops get lids (lids.h); otherwise an open surface is refused.
-/// `rotation`: of the frame in which `facesInSpace` is the same for a model that is turned.
+/// `rotation`: of the frame in which `spatialFaceOrder` is the same for a model that is turned.
 /// \throw InvalidInput with the number of defects and the MeshLab filter that mends them
 Solid makeSolid(const TriangleMesh& input, bool closeOpenings = false,
                 const Mat3& rotation = Mat3::Identity());

@@ -3,6 +3,7 @@
 #include "core/parallel.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -300,6 +301,19 @@ TriangleTree::Box TriangleTree::boxOf(Eigen::Index begin, Eigen::Index end) cons
   return around(lower, upper);
 }
 
+Lanes TriangleTree::squaredGaps(const FourBoxes& boxes, const Box& other) const {
+  Lanes sum = Lanes::Zero();
+  for (int k = 0; k < 3; ++k) {
+    // What floats cannot tell counts as no gap.
+    const Lanes outside =
+        (boxes.lower[k] - other.upper[k]).max(other.lower[k] - boxes.upper[k]) - rounding_;
+    sum += Lanes::Zero().max(outside).square();
+  }
+  return kBelowRounding * Lanes::Zero()
+                              .max(sum - std::numeric_limits<float>::min())
+                              .min(std::numeric_limits<float>::max());
+}
+
 template <class Distances, class Reach, class Visit>
 void TriangleTree::visitNearest(const Distances& distances, const Reach& reach,
                                 const Visit& visit) const {
@@ -334,6 +348,7 @@ void TriangleTree::visitNearest(const Distances& distances, const Reach& reach,
 
 TriangleTree::Hit TriangleTree::nearest(const Vec3& p, double squaredBound, int hintFace,
                                         double squaredExact) const {
+  assert(!triangles_.empty());
   Hit best;
   best.squaredDistance = squaredBound;
   // Boxes at this distance or farther away are of no interest.
@@ -372,13 +387,14 @@ double TriangleTree::squaredDistance(const Vec3& p, int face) const {
 
 double TriangleTree::squaredDistance(const Vec3& a, const Vec3& b, const Vec3& c,
                                      double squaredBound) const {
+  assert(!triangles_.empty());
   const Vec3 s[3] = {a, b, c};
-  const LoneTriangle lone(a, b, c);
+  const QueryTriangle query(a, b, c);
   const Box box = around(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c));
   double least = squaredBound;
   const auto visit = [&](Eigen::Index leaf) {
     const Lanes atLeast =
-        lone.squaredDistances(triangles_[static_cast<std::size_t>(leaf)], rounding_);
+        query.squaredDistances(triangles_[static_cast<std::size_t>(leaf)], rounding_);
     const Eigen::Index begin = firstPlace(leaf);
     const Eigen::Index end = firstPlace(leaf + 1);
     for (Eigen::Index i = begin; i < end; ++i) {

@@ -24,7 +24,7 @@ public:
   };
   enum class Queries {
     All,
-    NoDistances, ///< neither `nearest` nor the distance of a triangle, which need more
+    NoDistances, ///< made sooner; `nearest` and the distance of a triangle must not be called
   };
   TriangleTree(const Points& vertices, const Faces& faces, Order order = Order::Any,
                Queries queries = Queries::All);
@@ -84,7 +84,7 @@ private:
   };
   /// Side by side: a distance from all of them takes one instruction a step.
   struct FourBoxes {
-    Eigen::Array4f lower[3], upper[3];
+    Lanes lower[3], upper[3];
   };
 
   static Box around(const Vec3& lower, const Vec3& upper);
@@ -96,18 +96,7 @@ private:
   void visitNearest(const Distances& distances, const Reach& reach, const Visit& visit) const;
   Eigen::Index firstPlace(Eigen::Index leaf) const { return leaf * faces_.rows() / leaves_; }
   /// Not more than the squared distances of the boxes from `other`.
-  Eigen::Array4f squaredGaps(const FourBoxes& boxes, const Box& other) const {
-    Eigen::Array4f sum = Eigen::Array4f::Zero();
-    for (int k = 0; k < 3; ++k) {
-      // What floats cannot tell counts as no gap.
-      const Eigen::Array4f outside =
-          (boxes.lower[k] - other.upper[k]).max(other.lower[k] - boxes.upper[k]) - rounding_;
-      sum += Eigen::Array4f::Zero().max(outside).square();
-    }
-    return kBelowRounding * Eigen::Array4f::Zero()
-                                .max(sum - std::numeric_limits<float>::min())
-                                .min(std::numeric_limits<float>::max());
-  }
+  Lanes squaredGaps(const FourBoxes& boxes, const Box& other) const;
   Vec3 corner(int face, int k) const { return vertices_.row(faces_(face, k)).transpose(); }
 
   const Points& vertices_;
@@ -151,7 +140,7 @@ void TriangleTree::forOverlaps(const Vec3& lower, const Vec3& upper, Eigen::Inde
       continue;
     }
     const FourBoxes& boxes = boxes_[static_cast<std::size_t>(e.node)];
-    Eigen::Array4f gap = Eigen::Array4f::Constant(-std::numeric_limits<float>::infinity());
+    Lanes gap = Lanes::Constant(-std::numeric_limits<float>::infinity());
     for (int k = 0; k < 3; ++k) {
       gap = gap.max(boxes.lower[k] - box.upper[k]).max(box.lower[k] - boxes.upper[k]);
     }

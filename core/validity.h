@@ -14,6 +14,7 @@ namespace massprops {
 /// `order`: of the faces. \pre every edge of the surface has one or two faces
 std::vector<int> selfIntersectingFaces(const Points& vertices, const Faces& faces,
                                        TriangleTree::Order order = TriangleTree::Order::Any);
+/// The same where there is a tree already.
 std::vector<int> selfIntersectingFaces(const TriangleTree& surface);
 
 /// Faces without area, ascending. Exact.

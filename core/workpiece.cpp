@@ -15,7 +15,7 @@ constexpr double kFarthestPivot = 10.0;
 /// Faces in spatial order, vertices in the order in which these use them.
 void arrangeInSpace(const Solid& solid, Workpiece& piece) {
   const Points working = snapped(toWorking(piece.frame, solid.vertices()));
-  const std::vector<int>& faceOf = solid.facesInSpace();
+  const std::vector<int>& faceOf = solid.spatialFaceOrder();
   std::vector<int> number(static_cast<std::size_t>(working.rows()), -1);
   piece.vertexOf.reserve(number.size());
   piece.faces.resize(solid.faces().rows(), 3);

@@ -62,14 +62,14 @@ TEST_P(FourTrianglesTest, AreNeverNearerThanTheBound) {
       four.set(i, t[0], t[1], t[2]);
     }
     const float rounding = roundingOf(all);
-    const Corners lone = triangle(round);
+    const Corners query = triangle(round);
     const Vec3 p = place(round % 7 == 0 ? 1e6 : 2.0);
     const Lanes fromTriangle =
-        LoneTriangle(lone[0], lone[1], lone[2]).squaredDistances(four, rounding);
+        QueryTriangle(query[0], query[1], query[2]).squaredDistances(four, rounding);
     const Lanes fromPoint = four.squaredDistances(p, rounding);
     for (int i = 0; i < 4; ++i) {
       const Corners& t = all[static_cast<std::size_t>(i)];
-      EXPECT_LE(static_cast<double>(fromTriangle[i]), squaredDistance(lone, t) * (1.0 + 1e-12));
+      EXPECT_LE(static_cast<double>(fromTriangle[i]), squaredDistance(query, t) * (1.0 + 1e-12));
       EXPECT_LE(static_cast<double>(fromPoint[i]), squaredDistance({p, p, p}, t) * (1.0 + 1e-12));
     }
   }
@@ -89,11 +89,11 @@ INSTANTIATE_TEST_SUITE_P(SizesAndPlaces, FourTrianglesTest,
 
 // Products are too large for floats while squares of the axes are not.
 TEST(FourTriangles, AreNotFarWhereTheyCrossHoweverLargeTheyAre) {
-  const LoneTriangle lone({-1e9, 1e9, -1e9}, {2e9, -2e9, -1e9}, {-1e9, 1e9, 2e9});
+  const QueryTriangle query({-1e9, 1e9, -1e9}, {2e9, -2e9, -1e9}, {-1e9, 1e9, 2e9});
   FourTriangles four;
   for (int i = 0; i < 4; ++i)
     four.set(i, {-2e18, 3e18, -1e18}, {1e20, -1.5e20, 0}, {-2e18, 3e18, 1e18});
-  EXPECT_EQ(lone.squaredDistances(four, 1e14F).maxCoeff(), 0.0F);
+  EXPECT_EQ(query.squaredDistances(four, 1e14F).maxCoeff(), 0.0F);
   for (int i = 0; i < 4; ++i)
     four.set(i, {2.7e19, -2.6e19, 0}, {-2.6e19, 2.7e19, 0}, {2.7e19, -2.6e19, 0.24});
   EXPECT_LE(four.squaredDistances(Vec3::Zero(), 0.0F).maxCoeff(), 5e35F);
@@ -107,10 +107,10 @@ TEST(FourTriangles, TellNearlyTheDistanceAcrossTheirPlanes) {
     four.set(i, turn * Vec3(0, 0, height), turn * Vec3(1, 0, height), turn * Vec3(0, 1, height));
   }
   const Vec3 p = turn * Vec3(0.2, 0.2, 0);
-  const LoneTriangle lone(turn * Vec3(0.1, 0.1, 0), turn * Vec3(0.1, 0.6, 0),
-                          turn * Vec3(0.6, 0.1, 0));
+  const QueryTriangle query(turn * Vec3(0.1, 0.1, 0), turn * Vec3(0.1, 0.6, 0),
+                            turn * Vec3(0.6, 0.1, 0));
   const Lanes fromPoint = four.squaredDistances(p, 1e-6F);
-  const Lanes fromTriangle = lone.squaredDistances(four, 1e-6F);
+  const Lanes fromTriangle = query.squaredDistances(four, 1e-6F);
   for (int i = 0; i < 4; ++i) {
     const double squared = 0.01 * (i + 1) * (i + 1);
     EXPECT_NEAR(static_cast<double>(fromPoint[i]), squared, 1e-3 * squared);

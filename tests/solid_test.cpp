@@ -213,18 +213,18 @@ TEST(MakeSolid, OrdersTheFacesInSpaceAsInTheTurnedFrame) {
   Mat3 turn;
   turn << 1, 0, 0, 0, -1, 0, 0, 0, -1;
   for (const TriangleMesh& mesh : {body, two}) {
-    const std::vector<int> order = makeSolid(mesh).facesInSpace();
+    const std::vector<int> order = makeSolid(mesh).spatialFaceOrder();
     std::vector<int> sorted = order;
     std::sort(sorted.begin(), sorted.end());
     ASSERT_EQ(static_cast<Eigen::Index>(sorted.size()), mesh.faces.rows());
     for (std::size_t f = 0; f < sorted.size(); ++f) EXPECT_EQ(sorted[f], static_cast<int>(f));
     const TriangleMesh turned = transformed(mesh, turn.transpose(), {1, 2, 3});
-    EXPECT_EQ(makeSolid(turned, false, turn).facesInSpace(), order);
-    EXPECT_NE(makeSolid(turned).facesInSpace(), order);
+    EXPECT_EQ(makeSolid(turned, false, turn).spatialFaceOrder(), order);
+    EXPECT_NE(makeSolid(turned).spatialFaceOrder(), order);
   }
   // A cavity does not show.
-  EXPECT_EQ(makeSolid(joined(body, nested(body, 0.5, true))).facesInSpace(),
-            makeSolid(body).facesInSpace());
+  EXPECT_EQ(makeSolid(joined(body, nested(body, 0.5, true))).spatialFaceOrder(),
+            makeSolid(body).spatialFaceOrder());
 }
 
 TEST(MakeSolid, WorksInAnySizeAndPlace) {
