@@ -40,16 +40,14 @@ Coarseness cageFor(int basisSize) {
   return {std::max(kMost, needed), std::max(kLeast, needed), kDistance};
 }
 
-/// Vertices of the proxy. On models with thin limbs its skeleton costs some per cent of what
-/// hollowing gains, with a scatter that falls slowly with its size (benchmarks/results.md). The
-/// whole of a small model takes less than a second.
-Eigen::Index proxySize(Eigen::Index vertexCount, int basisSize) {
-  constexpr Eigen::Index kSmall = 5000;
-  constexpr double kShare = 0.33;
-  constexpr double kMost = 5000.0;
-  if (vertexCount <= kSmall) return vertexCount;
-  const double size = std::min(kShare * static_cast<double>(vertexCount), kMost);
-  return std::max(static_cast<Eigen::Index>(size), kVerticesAFunction * basisSize);
+/// Skeleton and basis are smooth: their proxy leads to cavities as good as the whole surface does
+/// (benchmarks/results.md).
+Coarseness proxyFor(int basisSize) {
+  constexpr Eigen::Index kMost = 2400;
+  constexpr Eigen::Index kLeast = 600;
+  constexpr double kDistance = 3e-4;
+  const Eigen::Index needed = kVerticesAFunction * basisSize;
+  return {std::max(kMost, needed), std::max(kLeast, needed), kDistance};
 }
 
 /// Per cent of the time at which stages begin. Seconds a vertex were measured on one machine; only
@@ -65,7 +63,8 @@ Schedule scheduleFor(Eigen::Index vertexCount, int basisSize, bool isCopied) {
       isCopied ? std::min(n, 0.8 * static_cast<double>(cageFor(basisSize).most)) : n;
   const double check = 1.3e-6 * n;
   const double copy = isCopied ? 8e-7 * n : 0.0;
-  const double skeleton = 4e-5 * static_cast<double>(proxySize(vertexCount, basisSize)) + 2e-7 * n;
+  const double skeleton =
+      5e-5 * std::min(n, static_cast<double>(proxyFor(basisSize).most)) + 1e-7 * n;
   const double directions = 5e-6 * moving;
   const double search = 2e-5 * moving + 4e-7 * n;
   const double total = check + copy + skeleton + directions + search;
@@ -144,10 +143,8 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   const bool isCopy = cage.mesh.vertices.rows() < n;
   const Points& x = cage.mesh.vertices;
   const Faces& faces = cage.mesh.faces;
-  // Skeleton and basis are smooth: a still coarser one carries them. The basis does not need the
-  // skeleton: both cores work.
-  const Proxy proxy =
-      makeProxy(x, faces, options.fullResolution ? n : proxySize(n, options.basisSize));
+  const Proxy proxy = makeProxy(
+      x, faces, options.fullResolution ? Coarseness{n, n, 0.0} : proxyFor(options.basisSize));
   const TriangleMesh& coarse = proxy.mesh;
   stages.secondsCopy = copyTime.seconds();
   const Vector area = vertexLumpedMass(x, faces);
@@ -161,6 +158,7 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
     tell(schedule.skeleton + static_cast<int>(share * (schedule.directions - schedule.skeleton)),
          "Mean curvature skeleton");
   };
+  // The basis does not need the skeleton: both cores work.
   Skeleton skeleton;
   HarmonicBasis basis;
   std::optional<Limit> limit;

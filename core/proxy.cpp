@@ -91,8 +91,13 @@ public:
     areHalvesApart_ = kFew * betweenHalves < faces.rows();
   }
 
+  void reduceTo(const Coarseness& wanted) {
+    reduceTo(wanted.most, std::numeric_limits<double>::infinity());
+    reduceTo(wanted.least, wanted.distance);
+  }
+
   /// No vertex goes that is farther than `distance` from the planes of its faces.
-  void reduceTo(Eigen::Index wanted, double distance = std::numeric_limits<double>::infinity()) {
+  void reduceTo(Eigen::Index wanted, double distance) {
     mostSquared_ = distance * distance;
     // Sweeps with rising thresholds: the order of the vertices along a space-filling curve is kept,
     // which is quicker than a queue, and each sweep thins the surface out evenly.
@@ -434,8 +439,7 @@ RowMatrix Interpolation::transposeTimes(const Eigen::Ref<const RowMatrix>& value
 CoarseCopy coarseCopy(const Points& vertices, const Faces& faces, const Coarseness& wanted) {
   if (isMuchLess(wanted.least, vertices)) {
     Collapsing surface(vertices, faces);
-    surface.reduceTo(wanted.most);
-    surface.reduceTo(wanted.least, wanted.distance);
+    surface.reduceTo(wanted);
     if (isMuchLess(surface.size(), vertices)) return surface.copy();
   }
   CoarseCopy copy{{vertices, faces}, {}};
@@ -444,15 +448,17 @@ CoarseCopy coarseCopy(const Points& vertices, const Faces& faces, const Coarsene
   return copy;
 }
 
-Proxy makeProxy(const Points& vertices, const Faces& faces, Eigen::Index size) {
-  if (!isMuchLess(size, vertices)) {
-    return {{vertices, faces}, Interpolation::identity(vertices.rows())};
+Proxy makeProxy(const Points& vertices, const Faces& faces, const Coarseness& wanted) {
+  if (isMuchLess(wanted.least, vertices)) {
+    Collapsing surface(vertices, faces);
+    surface.reduceTo(wanted);
+    if (isMuchLess(surface.size(), vertices)) {
+      const CoarseCopy copy = surface.copy();
+      Interpolation interpolation = surface.interpolationFrom(copy);
+      return {copy.mesh, std::move(interpolation)};
+    }
   }
-  Collapsing surface(vertices, faces);
-  surface.reduceTo(size);
-  const CoarseCopy copy = surface.copy();
-  Interpolation interpolation = surface.interpolationFrom(copy);
-  return {copy.mesh, std::move(interpolation)};
+  return {{vertices, faces}, Interpolation::identity(vertices.rows())};
 }
 
 } // namespace massprops

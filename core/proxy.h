@@ -60,8 +60,8 @@ struct Proxy {
   Interpolation interpolation;
 };
 
-/// A coarse copy of about `size` vertices that carries functions.
+/// A coarse copy that carries functions.
 /// \pre closed manifold components
-Proxy makeProxy(const Points& vertices, const Faces& faces, Eigen::Index size);
+Proxy makeProxy(const Points& vertices, const Faces& faces, const Coarseness& wanted);
 
 } // namespace massprops

@@ -395,8 +395,11 @@ TEST(Pipeline, MovesTheCavityWithTheModel) {
   ASSERT_EQ(result.inner.vertices.rows(), original.inner.vertices.rows());
   const Points difference =
       (result.inner.vertices.rowwise() - shift.transpose()) - original.inner.vertices;
-  // At a distance of 3000 the coordinates have 4.5e-13 left: 1e-5 of a grid step.
-  EXPECT_LT(difference.cwiseAbs().maxCoeff(), 1e-6 * diagonal(model));
+  // At a distance of 3000 the coordinates have 4.5e-13 left. That is lost where the model is
+  // rounded to its grid, but not where the cavity is made deliverable and looked at between the
+  // rounds; and the last steps of the optimisation magnify it.
+  EXPECT_LT(difference.cwiseAbs().maxCoeff(), 1e-5 * diagonal(model));
+  EXPECT_NEAR(number(result, "objective_after"), number(original, "objective_after"), 1e-8);
 }
 
 TEST(Pipeline, GivesTheSameCavityWhicheverAxisIsUp) {
@@ -595,21 +598,20 @@ TEST(Pipeline, MovesTheOuterSurfaceLessWhenItsDisplacementHasWeight) {
 }
 
 TEST(Pipeline, MakesSmootherOffsetsWhenSmoothnessHasWeight) {
-  // The spread of |x − y| over the edges of the surface; all vertices are hollowed here.
+  // The mean spread of the wall over the edges of the cavity.
   const TriangleMesh model = leaningPillar();
   const auto roughness = [&](const Result& r) {
-    EXPECT_EQ(r.inner.vertices.rows(), model.vertices.rows());
-    const Vector offset = (r.inner.vertices - model.vertices).rowwise().norm();
     double sum = 0.0;
-    for (Eigen::Index f = 0; f < model.faces.rows(); ++f)
+    for (Eigen::Index f = 0; f < r.inner.faces.rows(); ++f)
       for (int k = 0; k < 3; ++k)
-        sum += std::pow(offset[model.faces(f, k)] - offset[model.faces(f, (k + 1) % 3)], 2);
-    return sum;
+        sum += std::pow(
+            r.innerWall[r.inner.faces(f, k)] - r.innerWall[r.inner.faces(f, (k + 1) % 3)], 2);
+    return sum / static_cast<double>(r.inner.faces.rows());
   };
   Options options = stand();
   options.weights.smoothness = 1.0;
   const Result smooth = optimizeMassProperties(model, options);
-  EXPECT_LT(roughness(smooth), 0.7 * roughness(resultOf(caseNamed("pillar"))));
+  EXPECT_LT(roughness(smooth), 0.5 * roughness(resultOf(caseNamed("pillar"))));
 }
 
 TEST(Pipeline, MayMissTheConstraintsWhenTheyHaveNoWeightAndSaysSo) {

@@ -29,7 +29,7 @@ TEST(Proxy, HasTheSizeAskedForAndTheTopologyOfTheSurface) {
   for (const TriangleMesh& mesh :
        {sphere(40), torus(1, 0.3, 120, 60),
         joined(sphere(20), transformed(sphere(20), Mat3::Identity(), {3, 0, 0}))}) {
-    const Proxy proxy = makeProxy(mesh.vertices, mesh.faces, 600);
+    const Proxy proxy = makeProxy(mesh.vertices, mesh.faces, {600, 600, 0.0});
     EXPECT_EQ(proxy.mesh.vertices.rows(), 600);
     EXPECT_TRUE(isClosedAndOriented(proxy.mesh));
     EXPECT_EQ(eulerCharacteristic(proxy.mesh), eulerCharacteristic(mesh));
@@ -40,7 +40,7 @@ TEST(Proxy, HasTheSizeAskedForAndTheTopologyOfTheSurface) {
 
 TEST(Proxy, IsTheSurfaceItselfWhereThatIsCoarse) {
   const TriangleMesh mesh = blob(8);
-  const Proxy proxy = makeProxy(mesh.vertices, mesh.faces, 600);
+  const Proxy proxy = makeProxy(mesh.vertices, mesh.faces, {600, 600, 0.0});
   EXPECT_EQ(proxy.mesh.vertices, mesh.vertices);
   EXPECT_TRUE(proxy.interpolation.isIdentity());
 }
@@ -124,7 +124,7 @@ TEST(CoarseCopy, HasFewSliversAlsoOfVeryFineSurfaces) {
 
 TEST(Interpolation, ReproducesConstantsAndNearlyThePositions) {
   const TriangleMesh mesh = blob(40);
-  const Proxy proxy = makeProxy(mesh.vertices, mesh.faces, 1000);
+  const Proxy proxy = makeProxy(mesh.vertices, mesh.faces, {1000, 1000, 0.0});
   const Vector ones = proxy.interpolation * Vector(Vector::Ones(1000));
   EXPECT_LT((ones.array() - 1.0).abs().maxCoeff(), 1e-14);
   const Points positions = proxy.interpolation * proxy.mesh.vertices;
@@ -134,7 +134,7 @@ TEST(Interpolation, ReproducesConstantsAndNearlyThePositions) {
 
 TEST(Interpolation, HasTheTransposeOfItself) {
   const TriangleMesh mesh = blob(40);
-  const Proxy proxy = makeProxy(mesh.vertices, mesh.faces, 1000);
+  const Proxy proxy = makeProxy(mesh.vertices, mesh.faces, {1000, 1000, 0.0});
   Random random(5);
   const Vector coarse = random.vector(1000);
   const Vector fine = random.vector(mesh.vertices.rows());
