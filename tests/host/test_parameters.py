@@ -56,15 +56,14 @@ class ParametersTest(HostTest):
 
     def test_basis_k_more_functions_shape_finer_detail(self):
         # A model that is hollowed everywhere, so that vertices correspond.
-        outer = read_ply(DUCK)
-        _, (few, _) = self.run_filter(DUCK, script_of("bath_duck"), basis_k=6)
-        _, (many, _) = self.run_filter(DUCK, script_of("bath_duck"), basis_k=60)
-        self.assertEqual(len(few), len(outer[0]))
-        self.assertEqual(len(many), len(outer[0]))
+        _, (few, _) = self.top(basis_k=6)
+        _, (many, _) = self.top(basis_k=60)
+        self.assertEqual(len(few), len(self.outer[0]))
+        self.assertEqual(len(many), len(self.outer[0]))
 
         def roughness(inner):
-            offset = np.linalg.norm(inner - outer[0], axis=1)
-            return cotangent_energy(*outer, offset) / np.var(offset)
+            offset = np.linalg.norm(inner - self.outer[0], axis=1)
+            return cotangent_energy(*self.outer, offset) / np.var(offset)
 
         self.assertGreater(roughness(many), 1.2 * roughness(few))
 
