@@ -27,27 +27,19 @@ constexpr double kDiffusionLength = 0.02;
 /// Above this gap another search, with other directions, is worth its time.
 constexpr double kFarFromLimit = 0.075;
 
-/// A function of the basis needs a few vertices to have a shape.
-constexpr Eigen::Index kVerticesAFunction = 4;
-
 /// What moves inwards is as fine as a cavity has to be: on finer ones, the objective does not
 /// improve by more than the one or two per cent that it scatters by. In working lengths.
-Coarseness cageFor(int basisSize) {
-  constexpr Eigen::Index kMost = 12000;
-  constexpr Eigen::Index kLeast = 3000;
-  constexpr double kDistance = 1.5e-4;
-  const Eigen::Index needed = kVerticesAFunction * basisSize;
-  return {std::max(kMost, needed), std::max(kLeast, needed), kDistance};
-}
+constexpr Coarseness kCage{12000, 3000, 1.5e-4};
 
 /// Skeleton and basis are smooth: their proxy leads to cavities as good as the whole surface does
 /// (benchmarks/results.md).
-Coarseness proxyFor(int basisSize) {
-  constexpr Eigen::Index kMost = 2400;
-  constexpr Eigen::Index kLeast = 600;
-  constexpr double kDistance = 3e-4;
+constexpr Coarseness kProxy{2400, 600, 3e-4};
+
+/// A function of the basis needs a few vertices to have a shape.
+Coarseness carrying(int basisSize, const Coarseness& wanted) {
+  constexpr Eigen::Index kVerticesAFunction = 4;
   const Eigen::Index needed = kVerticesAFunction * basisSize;
-  return {std::max(kMost, needed), std::max(kLeast, needed), kDistance};
+  return {std::max(wanted.most, needed), std::max(wanted.least, needed), wanted.distance};
 }
 
 /// Per cent of the time at which stages begin. Seconds a vertex were measured on one machine; only
@@ -60,11 +52,11 @@ struct Schedule {
 Schedule scheduleFor(Eigen::Index vertexCount, int basisSize, bool isCopied) {
   const auto n = static_cast<double>(vertexCount);
   const double moving =
-      isCopied ? std::min(n, 0.8 * static_cast<double>(cageFor(basisSize).most)) : n;
+      isCopied ? std::min(n, 0.8 * static_cast<double>(carrying(basisSize, kCage).most)) : n;
   const double check = 1.3e-6 * n;
   const double copy = isCopied ? 8e-7 * n : 0.0;
   const double skeleton =
-      5e-5 * std::min(n, static_cast<double>(proxyFor(basisSize).most)) + 1e-7 * n;
+      5e-5 * std::min(n, static_cast<double>(carrying(basisSize, kProxy).most)) + 1e-7 * n;
   const double directions = 5e-6 * moving;
   const double search = 2e-5 * moving + 4e-7 * n;
   const double total = check + copy + skeleton + directions + search;
@@ -138,13 +130,14 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   // A coarse copy of the surface moves inwards, where the surface itself need not move as well.
   tell(schedule.copy, "Coarse copies");
   const Stopwatch copyTime;
+  const Coarseness whole{n, n, 0.0};
   const CoarseCopy cage = coarseCopy(piece.vertices, piece.faces,
-                                     needsAll ? Coarseness{n, n, 0.0} : cageFor(options.basisSize));
+                                     needsAll ? whole : carrying(options.basisSize, kCage));
   const bool isCopy = cage.mesh.vertices.rows() < n;
   const Points& x = cage.mesh.vertices;
   const Faces& faces = cage.mesh.faces;
-  const Proxy proxy = makeProxy(
-      x, faces, options.fullResolution ? Coarseness{n, n, 0.0} : proxyFor(options.basisSize));
+  const Proxy proxy =
+      makeProxy(x, faces, options.fullResolution ? whole : carrying(options.basisSize, kProxy));
   const TriangleMesh& coarse = proxy.mesh;
   stages.secondsCopy = copyTime.seconds();
   const Vector area = vertexLumpedMass(x, faces);
