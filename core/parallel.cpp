@@ -39,6 +39,11 @@ struct Task {
 
 } // namespace
 
+namespace {
+/// What the loops of this thread run on.
+thread_local ThreadTeam::Crew* present = nullptr;
+} // namespace
+
 class ThreadTeam::Crew {
 public:
   explicit Crew(int helpers) {
@@ -98,6 +103,7 @@ private:
   }
 
   void help() {
+    present = this; // loops within loops
     while (true) {
       waitAwake([&] { return open_ > 0 || isOver_; });
       std::unique_lock lock(mutex_);
@@ -127,10 +133,6 @@ private:
   std::atomic<bool> isOver_ = false;
   std::vector<std::thread> helpers_;
 };
-
-namespace {
-thread_local ThreadTeam::Crew* present = nullptr;
-} // namespace
 
 ThreadTeam::ThreadTeam() : before_(present) {
   if (present != nullptr) return;

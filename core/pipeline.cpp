@@ -67,6 +67,47 @@ Schedule scheduleFor(Eigen::Index vertexCount, int basisSize, bool isCopied) {
           percent(check + copy + skeleton + directions)};
 }
 
+/// What moves inwards, and the smooth functions that move it, which live on a still coarser copy.
+struct CoarseSurface {
+  CoarseCopy cage;
+  Vector mass; ///< of the cage, lumped, total 1
+  Proxy proxy;
+  SparseMatrix laplacian; ///< of the proxy
+  Vector area;            ///< that the proxy's vertices stand for on the cage
+  Skeleton skeleton;
+  HarmonicBasis basis;
+};
+
+CoarseSurface coarseSurface(const Workpiece& piece, const Coarseness& forCage,
+                            const Coarseness& forProxy, int basisSize,
+                            const std::function<void()>& tellCopied, Stages& stages) {
+  const Stopwatch copying;
+  CoarseCopy cage = coarseCopy(piece.vertices, piece.faces, forCage);
+  Proxy proxy = makeProxy(cage.mesh.vertices, cage.mesh.faces, forProxy);
+  stages.secondsCopy = copying.seconds();
+  tellCopied();
+  const Vector cageArea = vertexLumpedMass(cage.mesh.vertices, cage.mesh.faces);
+  const SparseMatrix laplacian = cotanLaplacian(proxy.mesh.vertices, proxy.mesh.faces);
+  const Vector area = proxy.interpolation.transposeTimes(cageArea);
+  Skeleton skeleton;
+  HarmonicBasis basis;
+  inParallel(
+      [&] {
+        const Stopwatch time;
+        basis = harmonicBasis(proxy.mesh.vertices, proxy.mesh.faces, laplacian, area / area.sum(),
+                              basisSize);
+        stages.secondsBasis = time.seconds();
+      },
+      [&] {
+        const Stopwatch time;
+        skeleton = meanCurvatureSkeleton(proxy.mesh.vertices, proxy.mesh.faces);
+        stages.secondsSkeleton = time.seconds();
+      });
+  stages.skeletonFailures = skeleton.failedComponents;
+  return {std::move(cage),     cageArea / cageArea.sum(), std::move(proxy), laplacian, area,
+          std::move(skeleton), std::move(basis)};
+}
+
 /// The outer surface keeps the point that the body hangs from.
 void holdTop(const Points& vertices, OffsetBounds& bounds) {
   constexpr double kTop = 1e-4; // as at the ground contacts
@@ -127,60 +168,38 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   const Schedule schedule = scheduleFor(n, options.basisSize, !needsAll);
   stages.secondsCheck = total.seconds();
 
-  // A coarse copy of the surface moves inwards, where the surface itself need not move as well.
-  tell(schedule.copy, "Coarse copies");
-  const Stopwatch copyTime;
-  const Coarseness whole{n, n, 0.0};
-  const CoarseCopy cage = coarseCopy(piece.vertices, piece.faces,
-                                     needsAll ? whole : carrying(options.basisSize, kCage));
-  const bool isCopy = cage.mesh.vertices.rows() < n;
-  const Points& x = cage.mesh.vertices;
-  const Faces& faces = cage.mesh.faces;
-  const Proxy proxy =
-      makeProxy(x, faces, options.fullResolution ? whole : carrying(options.basisSize, kProxy));
-  const TriangleMesh& coarse = proxy.mesh;
-  stages.secondsCopy = copyTime.seconds();
-  const Vector area = vertexLumpedMass(x, faces);
-  const Vector mass = area / area.sum();
-  const SparseMatrix coarseL = cotanLaplacian(coarse.vertices, coarse.faces);
-  const Vector coarseArea = proxy.interpolation.transposeTimes(area);
   const Moments solidMoments = moments(piece.vertices, piece.faces);
   const std::unique_ptr<Goal> goal = makeGoal(options, piece, piece.vertices);
-  tell(schedule.skeleton, "Mean curvature skeleton and harmonic basis");
-  const auto tellBeside = [&](double share) {
-    tell(schedule.skeleton + static_cast<int>(share * (schedule.directions - schedule.skeleton)),
-         "Mean curvature skeleton");
-  };
-  // The basis does not need the skeleton: both cores work.
-  Skeleton skeleton;
-  HarmonicBasis basis;
+  const Coarseness whole{n, n, 0.0};
   std::optional<Limit> limit;
+  std::optional<CoarseSurface> ground;
+  // The limit needs no copies: both cores work.
   inParallel(
       [&] {
-        const Stopwatch time;
-        skeleton = meanCurvatureSkeleton(coarse.vertices, coarse.faces);
-        stages.secondsSkeleton = time.seconds();
-      },
-      [&] {
-        const Stopwatch time;
-        basis = harmonicBasis(coarse.vertices, coarse.faces, coarseL, coarseArea / coarseArea.sum(),
-                              options.basisSize);
-        stages.secondsBasis = time.seconds();
-        tellBeside(0.25);
         if (options.outerUpperBound > 0.0 || piece.open) return;
-        const Stopwatch limitTime;
+        const Stopwatch time;
         const AdmissibleCells cells = admissibleCells(surface, piece.wall);
         if (cells.rows() == 0) return;
-        tellBeside(0.5);
         limit = limitOf(*goal, options.weights, solidMoments, fillingSeenBy(options), cells);
-        stages.secondsLimit = limitTime.seconds();
-        tellBeside(0.75);
+        stages.secondsLimit = time.seconds();
+      },
+      [&] {
+        tell(schedule.copy, "Coarse copies");
+        ground.emplace(coarseSurface(
+            piece, needsAll ? whole : carrying(options.basisSize, kCage),
+            options.fullResolution ? whole : carrying(options.basisSize, kProxy), options.basisSize,
+            [&] { tell(schedule.skeleton, "Mean curvature skeleton and harmonic basis"); },
+            stages));
       });
-  stages.skeletonFailures = skeleton.failedComponents;
+  const bool isCopy = ground->cage.mesh.vertices.rows() < n;
+  const Points& x = ground->cage.mesh.vertices;
+  const Faces& faces = ground->cage.mesh.faces;
+  const Proxy& proxy = ground->proxy;
   stages.repairs = solid.repairs().describe();
 
   tell(schedule.directions, "Offset directions");
-  const Points axis = smoothedOverSurface(skeleton.points, coarseL, coarseArea, kDiffusionLength);
+  const Points axis = smoothedOverSurface(ground->skeleton.points, ground->laplacian, ground->area,
+                                          kDiffusionLength);
   Points fineAxis = proxy.interpolation * axis;
   if (piece.open) fineAxis = levelAtRim(x, faces, piece.isLid, *piece.open, fineAxis);
   const Faces& skin = piece.open ? piece.open->skin : faces;
@@ -192,7 +211,7 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   };
   const SparseMatrix L =
       options.weights.smoothness > 0.0 ? cotanLaplacian(x, faces) : SparseMatrix();
-  CavityTask task{surface, x, faces, field, basis, L, mass, *goal, options.weights};
+  CavityTask task{surface, x, faces, field, ground->basis, L, ground->mass, *goal, options.weights};
   if (!proxy.interpolation.isIdentity()) task.proxy = &proxy;
   if (piece.open) task.open = &*piece.open;
   task.solidMoments = solidMoments;
@@ -248,7 +267,7 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   tell(Schedule::kEnd, "Report");
   Result result;
   if (cavity.status == CavityStatus::Found) {
-    const std::vector<int> places = placesInSolid(piece, cage.vertexOf);
+    const std::vector<int> places = placesInSolid(piece, ground->cage.vertexOf);
     Points positions = representable(toModel(piece.frame, placed(cavity.inner, places)));
     Faces cavityFaces = cavity.cavity.faces;
     if (piece.open) {
