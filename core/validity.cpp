@@ -77,6 +77,32 @@ private:
     return {ab.cross(ac), std::sqrt(ab.squaredNorm() * ac.squaredNorm())};
   }
 
+  struct Box {
+    Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity());
+    Vec3 upper = -lower;
+
+    void add(const Box& other) {
+      lower = lower.cwiseMin(other.lower);
+      upper = upper.cwiseMax(other.upper);
+    }
+    bool meets(const Box& other) const {
+      for (int k = 0; k < 3; ++k) {
+        if (lower[k] > other.upper[k] || upper[k] < other.lower[k]) return false;
+      }
+      return true;
+    }
+  };
+
+  Box boxOf(int f) const {
+    const Vec3 a = point(faces_(f, 0));
+    const Vec3 b = point(faces_(f, 1));
+    const Vec3 c = point(faces_(f, 2));
+    Box box;
+    box.lower = a.cwiseMin(b).cwiseMin(c);
+    box.upper = a.cwiseMax(b).cwiseMax(c);
+    return box;
+  }
+
   static bool facesTowards(const Normal& n, const Vec3& unit) {
     return n.vector.dot(unit) > kSafe * n.length;
   }
@@ -210,8 +236,8 @@ private:
     const Eigen::Index end = std::min(faces_.rows(), begin + kBlock);
     Window window;
     Vec3 axis = Vec3::Zero();
-    Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity());
-    Vec3 upper = -lower;
+    Box boxes[kBlock];
+    Box all;
     double edge = 0.0;
     for (Eigen::Index i = begin; i < end; ++i) {
       const int f = tree_.faceAt(i);
@@ -219,10 +245,8 @@ private:
       const double length = n.vector.norm();
       if (length > 0.0) axis += n.vector / length;
       edge += std::sqrt(n.length);
-      for (int k = 0; k < 3; ++k) {
-        lower = lower.cwiseMin(point(faces_(f, k)));
-        upper = upper.cwiseMax(point(faces_(f, k)));
-      }
+      boxes[i - begin] = boxOf(f);
+      all.add(boxes[i - begin]);
     }
     edge /= static_cast<double>(end - begin);
     patches.first = patches.next;
@@ -239,7 +263,8 @@ private:
           window.upper = window.upper.cwiseMax(p);
         }
       }
-      window.slack = kSafe * (lower.cwiseAbs().cwiseMax(upper.cwiseAbs()).maxCoeff() + edge);
+      window.slack =
+          kSafe * (all.lower.cwiseAbs().cwiseMax(all.upper.cwiseAbs()).maxCoeff() + edge);
       window.lower.array() -= kMargin * edge;
       window.upper.array() += kMargin * edge;
       constexpr int kMostPatches = 4;
@@ -253,29 +278,21 @@ private:
     // What is left: pairs that no patch has in common. Most often one patch has the whole block.
     const int common = patches.of[at(tree_.faceAt(begin))];
     bool isOnePatch = common >= patches.first;
-    for (Eigen::Index i = begin; i < end && isOnePatch; ++i) {
-      isOnePatch = patches.of[at(tree_.faceAt(i))] == common;
+    int patchOf[kBlock];
+    for (Eigen::Index i = begin; i < end; ++i) {
+      patchOf[i - begin] = patches.of[at(tree_.faceAt(i))];
+      isOnePatch = isOnePatch && patchOf[i - begin] == common;
     }
-    tree_.forOverlaps(lower, upper, begin, [&](Eigen::Index i) {
+    tree_.forOverlaps(all.lower, all.upper, begin, [&](Eigen::Index i) {
       const int f = tree_.faceAt(i);
       const int patch = patches.of[at(f)];
       const bool isKnown = patch >= patches.first;
       if (isOnePatch && patch == common) return;
-      const Vec3 a = point(faces_(f, 0));
-      const Vec3 b = point(faces_(f, 1));
-      const Vec3 c = point(faces_(f, 2));
-      const Vec3 low = a.cwiseMin(b).cwiseMin(c);
-      const Vec3 high = a.cwiseMax(b).cwiseMax(c);
+      const Box box = boxOf(f);
+      if (!box.meets(all)) return;
       for (Eigen::Index j = begin; j < std::min(end, i); ++j) {
+        if (!box.meets(boxes[j - begin]) || (isKnown && patchOf[j - begin] == patch)) continue;
         const int g = tree_.faceAt(j);
-        if (isKnown && patches.of[at(g)] == patch) continue;
-        const Vec3 p = point(faces_(g, 0));
-        const Vec3 q = point(faces_(g, 1));
-        const Vec3 r = point(faces_(g, 2));
-        if ((p.cwiseMin(q).cwiseMin(r).array() > high.array()).any() ||
-            (p.cwiseMax(q).cwiseMax(r).array() < low.array()).any()) {
-          continue;
-        }
         if (cross(f, g)) {
           found.push_back(f);
           found.push_back(g);
