@@ -45,12 +45,13 @@ Lanes mostOf(const Lanes& a, const Lanes& b, const Lanes& c) {
 /// Of the gaps between what two bodies of this `size` cast on an axis of any length: no more than
 /// their distance, whatever the axis is. Short axes, whose squares floats cannot hold, count as
 /// longer, and gaps that come of products which floats cannot hold as none.
-Lanes squaredLength(const Lanes& gap, const Vectors& axis, const Lanes& size) {
+[[gnu::always_inline]] inline Lanes squaredLength(const Lanes& gap, const Vectors& axis,
+                                                  const Lanes& size) {
   constexpr float kLeast = 1e-30F;
   constexpr float kMost = 1e37F;
   const Lanes held = Lanes::Zero().max(kMost - absSum(axis) * size);
-  const Lanes length = Lanes::Zero().max(gap).min(held) / dot(axis, axis).max(kLeast).sqrt();
-  return (1.0F - kUnits) * length.square();
+  const Lanes reached = Lanes::Zero().max(gap).min(held);
+  return (1.0F - kUnits) * reached * (reached / dot(axis, axis).max(kLeast));
 }
 
 /// Lower bounds that floats hold: of their least numbers, which are rounded up, nothing is left.

@@ -91,9 +91,12 @@ private:
   Box boxOf(Eigen::Index begin, Eigen::Index end) const;
   FourTriangles trianglesOf(Eigen::Index leaf) const;
   /// Calls visit(leaf) for the leaves in boxes of which `distances`(four boxes) are below
-  /// `reach`(), of four the nearer ones first; a visit may bring the reach down.
+  /// `reach`(), of four the nearest one first; a visit may bring the reach down.
   template <class Distances, class Reach, class Visit>
   void visitNearest(const Distances& distances, const Reach& reach, const Visit& visit) const;
+  /// The same for the distances from a box, in any order.
+  template <class Visit>
+  void visitWithin(const Box& box, const double& squaredReach, const Visit& visit) const;
   Eigen::Index firstPlace(Eigen::Index leaf) const { return leaf * faces_.rows() / leaves_; }
   /// Not more than the squared distances of the boxes from `other`.
   Lanes squaredGaps(const FourBoxes& boxes, const Box& other) const;
