@@ -205,15 +205,11 @@ Inspection inspectResult(const CavityTask& task, const CavityResult& result, boo
                          ClearanceMemory& memory) {
   const Faces& cavity = result.cavity.faces;
   if (task.open != nullptr) return inspectShell(result.inner, cavity, task.surface, task.wall);
-  const auto inspectFrom = [&](const TriangleTree& outer, ClearanceMemory* known) {
-    Inspection inspection =
-        inspect(result.inner, cavity, outer, task.wall, task.outer.has_value(), onlyFolds, known);
-    if (inspection.isClean())
-      measureWall(result.inner, cavity, outer, task.wall, known, inspection);
-    return inspection;
-  };
-  if (!task.outer) return inspectFrom(task.surface, &memory);
-  return inspectFrom({result.outer, task.surface.faces(), TriangleTree::Order::Spatial}, nullptr);
+  if (task.outer) {
+    const TriangleTree moved(result.outer, task.surface.faces(), TriangleTree::Order::Spatial);
+    return inspect(result.inner, cavity, moved, task.wall, true, onlyFolds);
+  }
+  return inspect(result.inner, cavity, task.surface, task.wall, false, onlyFolds, &memory);
 }
 
 /// `freedom`: how much of the range between least and greatest offset may be used, 0…1; at 0 there

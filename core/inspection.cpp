@@ -12,10 +12,6 @@ namespace massprops {
 namespace {
 
 constexpr double kWallTolerance = 0.005;
-/// Where the cavity lies along the wanted wall, telling whether it is just above or just below is
-/// the most expensive of all; within the tolerance it does not matter.
-constexpr double kHorizon = 0.998;
-static_assert(kHorizon > 1.0 - kWallTolerance);
 
 /// The vertices of these faces, ascending.
 std::vector<int> verticesOf(const Faces& faces,
@@ -45,7 +41,7 @@ Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleT
   inspection.crossing = verticesOf(innerFaces, {&folded, &flat});
   if (foldsFirst && !inspection.crossing.empty()) return inspection;
 
-  Clearance clearance = clearanceOf(inner, innerFaces, outer, kHorizon * wall, memory);
+  Clearance clearance = clearanceOf(inner, innerFaces, outer, wall, memory);
   inspection.crossing = verticesOf(innerFaces, {&clearance.crossing, &folded, &flat});
   if (outerMoved) {
     const std::vector<int> outerFolds = selfIntersectingFaces(outer);
@@ -77,11 +73,6 @@ Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleT
     }
   }
   return inspection;
-}
-
-void measureWall(const Points& inner, const Faces& innerFaces, const TriangleTree& outer,
-                 double wall, ClearanceMemory* memory, Inspection& inspection) {
-  inspection.wall = clearanceOf(inner, innerFaces, outer, wall, memory).distance;
 }
 
 Inspection inspectShell(const Points& positions, const Faces& cavity, const TriangleTree& skin,

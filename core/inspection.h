@@ -10,8 +10,7 @@
 namespace massprops {
 
 struct Inspection {
-  /// Distance from the outer surface, see `Clearance`, exact below 0.998 of the wanted wall; n
-  /// entries.
+  /// Distance from the outer surface, see `Clearance`, exact below the wanted wall; n entries.
   Vector wall;
   double leastWall = 0.0; ///< exact; infinity when there is no cavity
   /// Vertices of faces that cross another face, or of a component that is not inside of the outer
@@ -38,15 +37,11 @@ Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleT
                    double wall, bool outerMoved, bool foldsFirst = false,
                    ClearanceMemory* memory = nullptr);
 
-/// Makes `wall` exact up to the wanted wall. The cavity and `memory` are those of the inspection.
-void measureWall(const Points& inner, const Faces& innerFaces, const TriangleTree& outer,
-                 double wall, ClearanceMemory* memory, Inspection& inspection);
-
-/// An inspection of the shell of an open surface (open_surface.h), its wall exact: skin, offset
-/// surface and strips together are free of crossings and bound the material, and the offset
-/// surface, strips apart, keeps the wall from the skin. `positions`: 2n×3, the last n those of the
-/// skin; `wall`, `nearestFace` have 2n entries, the latter faces of the skin, the wall being 0 on
-/// the skin itself; `crossing` and `thin` are vertices below n.
+/// An inspection of the shell of an open surface (open_surface.h): skin, offset surface and strips
+/// together are free of crossings and bound the material, and the offset surface, strips apart,
+/// keeps the wall from the skin. `positions`: 2n×3, the last n those of the skin; `wall`,
+/// `nearestFace` have 2n entries, the latter faces of the skin, the wall being 0 on the skin
+/// itself; `crossing` and `thin` are vertices below n.
 Inspection inspectShell(const Points& positions, const Faces& cavity, const TriangleTree& skin,
                         double wall);
 
