@@ -27,7 +27,8 @@ SymmetricSix square(const Row3& p) {
 }
 
 template <bool WithSecond>
-MomentRates rates(const Points& vertices, const Faces& faces, const Points& directions) {
+MomentRates rates(const Points& vertices, const Faces& faces, const Points& directions,
+                  Eigen::Index begin, Eigen::Index end) {
   // Reynolds: d/dt ∫q dV = ∫ q λ_a (n·d_a) dA over the triangles at a, λ_a the hat function of a.
   // With N = (b−a)×(c−a) = 2·area·n and ∫λ_a^i λ_b^j λ_c^k dA = 2·area·i!j!k!/(i+j+k+2)!:
   // dV = N·d/6, d∫x = N·d (s + a)/24, d∫x xᵀ = N·d (s sᵀ + Σ p pᵀ + a sᵀ + s aᵀ + 2a aᵀ)/120,
@@ -36,7 +37,7 @@ MomentRates rates(const Points& vertices, const Faces& faces, const Points& dire
   MomentRates result = MomentRates::Zero(vertices.rows(), kTerms);
   const double* x = vertices.data();
   const double* d = directions.data();
-  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+  for (Eigen::Index f = begin; f < end; ++f) {
     const Eigen::Index v[3] = {faces(f, 0), faces(f, 1), faces(f, 2)};
     const double* p[3] = {x + 3 * v[0], x + 3 * v[1], x + 3 * v[2]};
     const double e[3] = {p[1][0] - p[0][0], p[1][1] - p[0][1], p[1][2] - p[0][2]};
@@ -108,10 +109,22 @@ Moments moments(const Points& vertices, const Faces& faces, bool withSecond) {
   return result;
 }
 
-MomentRates momentRates(const Points& vertices, const Faces& faces, const Points& directions,
-                        bool withSecond) {
-  return withSecond ? rates<true>(vertices, faces, directions)
-                    : rates<false>(vertices, faces, directions);
+RatedMoments ratedMoments(const Points& vertices, const Faces& faces, const Points& directions,
+                          bool withSecond) {
+  const Eigen::Index n = faces.rows();
+  RatedMoments result;
+  if (withSecond) {
+    inParallel([&] { result.rates = rates<true>(vertices, faces, directions, 0, n); },
+               [&] { result.value = moments(vertices, faces); });
+    return result;
+  }
+  // Four terms are so few that a second array for half of the faces is worth its memory.
+  MomentRates others;
+  inParallel([&] { result.rates = rates<false>(vertices, faces, directions, 0, n / 2); },
+             [&] { others = rates<false>(vertices, faces, directions, n / 2, n); });
+  result.rates += others;
+  result.value = moments(vertices, faces, false);
+  return result;
 }
 
 Moments translated(const Moments& moments, const Vec3& shift) {

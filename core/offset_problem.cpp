@@ -43,22 +43,13 @@ Matrix byCoefficients(const OffsetModel& model, const RowMatrix& rates) {
 /// d(moments)/d(coefficients) of a surface whose vertex i moves by sign·φ'_i per unit of (Hα)_i.
 MomentJacobian jacobian(const OffsetModel& model, MomentRates rates, const Vector& slopes,
                         double sign) {
-  rates.array().colwise() *= sign * slopes.array();
+  forChunks(rates.rows(), kChunk, [&](const Chunk& chunk) {
+    const Eigen::Index size = chunk.end - chunk.begin;
+    rates.middleRows(chunk.begin, size).array().colwise() *=
+        sign * slopes.segment(chunk.begin, size).array();
+  });
   MomentJacobian result = MomentJacobian::Zero(10, model.basis.functions.cols());
   result.topRows(rates.cols()) = byCoefficients(model, rates);
-  return result;
-}
-
-struct RatedMoments {
-  Moments value;
-  MomentRates rates;
-};
-
-RatedMoments momentsWithRates(const Points& vertices, const Faces& faces, const Points& directions,
-                              bool usesInertia) {
-  RatedMoments result;
-  inParallel([&] { result.rates = momentRates(vertices, faces, directions, usesInertia); },
-             [&] { result.value = moments(vertices, faces, usesInertia); });
   return result;
 }
 
@@ -68,12 +59,12 @@ CavityMoments momentsOf(const OffsetModel& model, const OffsetSurfaces& surfaces
     // The strips and lids have corners on the outer surface, which rest.
     const Eigen::Index n = model.vertices.rows();
     const RatedMoments both =
-        momentsWithRates(stacked(surfaces.inner, model.vertices), model.innerFaces,
-                         stacked(model.directions, Points::Zero(n, 3)), usesInertia);
+        ratedMoments(stacked(surfaces.inner, model.vertices), model.innerFaces,
+                     stacked(model.directions, Points::Zero(n, 3)), usesInertia);
     return {both.value, jacobian(model, both.rates.topRows(n), surfaces.innerSlopes, -1.0)};
   }
   RatedMoments inner =
-      momentsWithRates(surfaces.inner, model.innerFaces, model.directions, usesInertia);
+      ratedMoments(surfaces.inner, model.innerFaces, model.directions, usesInertia);
   return {inner.value, jacobian(model, std::move(inner.rates), surfaces.innerSlopes, -1.0)};
 }
 
@@ -95,7 +86,14 @@ OffsetSurfaces offsetSurfaces(const OffsetModel& model, const Vector& coefficien
   BoundedOffsets inner = boundMap(model.inner, fieldOf(model, coefficients.head(k)));
   surfaces.innerOffsets = std::move(inner.offsets);
   surfaces.innerSlopes = std::move(inner.slopes);
-  surfaces.inner = model.vertices - surfaces.innerOffsets.asDiagonal() * model.directions;
+  surfaces.inner.resize(model.vertices.rows(), 3);
+  forChunks(model.vertices.rows(), kChunk, [&](const Chunk& chunk) {
+    const Eigen::Index size = chunk.end - chunk.begin;
+    surfaces.inner.middleRows(chunk.begin, size) =
+        model.vertices.middleRows(chunk.begin, size) -
+        surfaces.innerOffsets.segment(chunk.begin, size).asDiagonal() *
+            model.directions.middleRows(chunk.begin, size);
+  });
   if (model.outer) {
     BoundedOffsets outer = boundMap(*model.outer, fieldOf(model, coefficients.tail(k)));
     surfaces.outerOffsets = std::move(outer.offsets);
@@ -119,7 +117,7 @@ Evaluation evaluate(const OffsetModel& model, const Goal& goal, const Weights& w
   if (model.outer) {
     const double solidVolume = model.solidMoments[0];
     RatedMoments moved =
-        momentsWithRates(surfaces.outer, model.faces, model.directions, goal.usesInertia());
+        ratedMoments(surfaces.outer, model.faces, model.directions, goal.usesInertia());
     const Moments& outer = moved.value;
     const MomentJacobian outerJacobian =
         jacobian(model, std::move(moved.rates), surfaces.outerSlopes, 1.0);
