@@ -131,7 +131,8 @@ bool fillNarrowParts(const CavityTask& task, const OffsetSurfaces& surfaces,
                      std::vector<char>& solid) {
   const Points& inner = surfaces.inner;
   if (faces.rows() == 0) return false;
-  const TriangleTree tree(inner, faces);
+  const TriangleTree tree(inner, faces, TriangleTree::Order::Any,
+                          TriangleTree::Queries::NoDistances);
   constexpr Eigen::Index kChunk = 1024;
   std::atomic<bool> any = false;
   forChunks(inner.rows(), kChunk, [&](const Chunk& chunk) {

@@ -32,11 +32,8 @@ std::vector<int> verticesOf(const Faces& faces,
 Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleTree& outer,
                    double wall, bool outerMoved, bool foldsFirst, ClearanceMemory* memory) {
   Inspection inspection;
-  // Caps and gaps disturb the order.
-  const TriangleTree::Order innerOrder = innerFaces.rows() == outer.faces().rows()
-                                             ? TriangleTree::Order::Spatial
-                                             : TriangleTree::Order::Any;
-  const std::vector<int> folded = selfIntersectingFaces(inner, innerFaces, innerOrder);
+  const std::vector<int> folded =
+      selfIntersectingFaces(inner, innerFaces, TriangleTree::Order::Spatial);
   const std::vector<int> flat = facesWithoutArea(inner, innerFaces);
   inspection.crossing = verticesOf(innerFaces, {&folded, &flat});
   if (foldsFirst && !inspection.crossing.empty()) return inspection;
