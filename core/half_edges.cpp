@@ -3,6 +3,7 @@
 #include "core/parallel.h"
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 
 namespace massprops {
@@ -33,15 +34,41 @@ std::vector<int> oppositeHalfEdges(Eigen::Index vertexCount, const Faces& faces)
     for (Eigen::Index h = chunk.begin; h < chunk.end; ++h) {
       const int from = corner[h];
       const int to = corner[nextHalfEdge(static_cast<int>(h))];
+      if (from > to) continue; // the other one finds it
       for (const int other : at.at(to)) {
         if (corner[nextHalfEdge(other)] == from) {
           opposite[static_cast<std::size_t>(h)] = other;
+          opposite[static_cast<std::size_t>(other)] = static_cast<int>(h);
           break;
         }
       }
     }
   });
   return opposite;
+}
+
+bool hasTwoFacesAtEveryEdge(Eigen::Index vertexCount, const Faces& faces) {
+  const VertexCorners at = vertexCorners(vertexCount, faces);
+  const int* corner = faces.data();
+  std::atomic<bool> isSo = true;
+  constexpr Eigen::Index kChunk = 8192;
+  forChunks(vertexCount, kChunk, [&](const Chunk& chunk) {
+    // What the edges from and to a vertex lead to.
+    std::vector<int> from;
+    std::vector<int> to;
+    for (Eigen::Index v = chunk.begin; v < chunk.end && isSo; ++v) {
+      from.clear();
+      to.clear();
+      for (const int c : at.at(v)) {
+        from.push_back(corner[nextHalfEdge(c)]);
+        to.push_back(corner[previousHalfEdge(c)]);
+      }
+      std::sort(from.begin(), from.end());
+      std::sort(to.begin(), to.end());
+      if (from != to || std::adjacent_find(from.begin(), from.end()) != from.end()) isSo = false;
+    }
+  });
+  return isSo;
 }
 
 std::vector<EdgeUse> edgeUses(Eigen::Index vertexCount, const Faces& faces) {

@@ -31,6 +31,10 @@ struct VertexCorners {
 };
 VertexCorners vertexCorners(Eigen::Index vertexCount, const Faces& faces);
 
+/// Whether every edge has two faces that run along it in opposite directions. No need for a
+/// manifold; corners of a face must differ.
+bool hasTwoFacesAtEveryEdge(Eigen::Index vertexCount, const Faces& faces);
+
 /// How many faces run along an edge, from the smaller to the larger index and back.
 struct EdgeUse {
   int forward = 0;

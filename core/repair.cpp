@@ -22,6 +22,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
 bool isOpen(Eigen::Index vertexCount, const Faces& faces) {
+  if (hasTwoFacesAtEveryEdge(vertexCount, faces)) return false;
   const std::vector<EdgeUse> uses = edgeUses(vertexCount, faces);
   return std::any_of(uses.begin(), uses.end(),
                      [](const EdgeUse& use) { return use.forward + use.backward == 1; });

@@ -42,6 +42,7 @@ void requireFiniteTriangles(const TriangleMesh& mesh) {
 
 /// Returns the number of boundary edges, of which there may be some where openings are allowed.
 std::size_t requireManifoldEdges(const TriangleMesh& mesh, bool mayBeOpen) {
+  if (hasTwoFacesAtEveryEdge(mesh.vertices.rows(), mesh.faces)) return 0;
   std::size_t boundary = 0;
   std::size_t nonManifold = 0;
   std::size_t incoherent = 0;

@@ -16,7 +16,7 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 /// Triangles that are looked at together.
-constexpr Eigen::Index kBlock = 24;
+constexpr Eigen::Index kBlock = 32;
 /// Around a block, in edges: neighbours whose boxes meet those of the block belong to its patch,
 /// too, and need not be compared.
 constexpr double kMargin = 0.25;
