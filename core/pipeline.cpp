@@ -54,11 +54,12 @@ Schedule scheduleFor(Eigen::Index vertexCount, int basisSize, bool isCopied) {
   const double moving =
       isCopied ? std::min(n, 0.8 * static_cast<double>(carrying(basisSize, kCage).most)) : n;
   const double check = 1.3e-6 * n;
-  const double copy = isCopied ? 8e-7 * n : 0.0;
+  const double copy =
+      isCopied ? 7e-7 * n + 1.2e-6 * std::min(n, static_cast<double>(kCage.most)) : 0.0;
   const double skeleton =
-      5e-5 * std::min(n, static_cast<double>(carrying(basisSize, kProxy).most)) + 1e-7 * n;
-  const double directions = 5e-6 * moving;
-  const double search = 2e-5 * moving + 4e-7 * n;
+      2.7e-5 * std::min(n, static_cast<double>(carrying(basisSize, kProxy).most)) + 1e-7 * n;
+  const double directions = 2.3e-6 * moving;
+  const double search = 1.25e-5 * moving + 6e-7 * n;
   const double total = check + copy + skeleton + directions + search;
   const auto percent = [&](double seconds) {
     return static_cast<int>(Schedule::kEnd * seconds / total);
