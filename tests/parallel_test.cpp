@@ -123,6 +123,23 @@ std::ptrdiff_t threadsOfThisProcess() {
   return std::distance(directory_iterator("/proc/self/task"), directory_iterator());
 }
 
+TEST(ThreadTeam, IsWhatLoopsWithinLoopsRunOn) {
+  const ThreadCount threads(3);
+  const ThreadTeam team;
+  const std::ptrdiff_t all = threadsOfThisProcess();
+  std::atomic<bool> isMore = false;
+  std::atomic<int> begun = 0;
+  forChunks(3, 1, [&](const Chunk&) {
+    // On every thread of the team.
+    ++begun;
+    while (begun < 3) std::this_thread::yield();
+    forChunks(20, 1, [&](const Chunk&) {
+      if (threadsOfThisProcess() > all) isMore = true;
+    });
+  });
+  EXPECT_FALSE(isMore);
+}
+
 TEST(ThreadTeam, WorksOnAllItsThreadsAndLeavesNoneBehind) {
   const ThreadCount threads(3);
   const std::ptrdiff_t before = threadsOfThisProcess();
