@@ -53,7 +53,7 @@ void countTriangles(benchmark::State& state, const Animal& a) {
 void momentsWithGradients(benchmark::State& state) {
   const Animal& a = animal(state.range(0));
   for ([[maybe_unused]] auto _ : state) {
-    benchmark::DoNotOptimize(ratedMoments(a.inner, a.piece.faces, a.directions));
+    benchmark::DoNotOptimize(momentsWithRates(a.inner, a.piece.faces, a.directions));
   }
   countTriangles(state, a);
 }

@@ -3,8 +3,6 @@
 #include "core/parallel.h"
 
 #include <algorithm>
-#include <atomic>
-#include <utility>
 
 namespace massprops {
 
@@ -47,51 +45,46 @@ std::vector<int> oppositeHalfEdges(Eigen::Index vertexCount, const Faces& faces)
   return opposite;
 }
 
-bool hasTwoFacesAtEveryEdge(Eigen::Index vertexCount, const Faces& faces) {
+EdgeCounts countEdges(Eigen::Index vertexCount, const Faces& faces) {
   const VertexCorners at = vertexCorners(vertexCount, faces);
   const int* corner = faces.data();
-  std::atomic<bool> isSo = true;
   constexpr Eigen::Index kChunk = 8192;
+  std::vector<EdgeCounts> parts(static_cast<std::size_t>(chunkCount(vertexCount, kChunk)));
   forChunks(vertexCount, kChunk, [&](const Chunk& chunk) {
-    // What the edges from and to a vertex lead to.
+    EdgeCounts& counts = parts[static_cast<std::size_t>(chunk.number)];
+    // Where the edges from and to a vertex lead, larger indices only: each edge is met once.
     std::vector<int> from;
     std::vector<int> to;
-    for (Eigen::Index v = chunk.begin; v < chunk.end && isSo; ++v) {
+    for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
       from.clear();
       to.clear();
       for (const int c : at.at(v)) {
-        from.push_back(corner[nextHalfEdge(c)]);
-        to.push_back(corner[previousHalfEdge(c)]);
+        const int next = corner[nextHalfEdge(c)];
+        const int previous = corner[previousHalfEdge(c)];
+        if (next > v) from.push_back(next);
+        if (previous > v) to.push_back(previous);
       }
       std::sort(from.begin(), from.end());
       std::sort(to.begin(), to.end());
-      if (from != to || std::adjacent_find(from.begin(), from.end()) != from.end()) isSo = false;
+      for (auto f = from.begin(), t = to.begin(); f != from.end() || t != to.end();) {
+        const int end = t == to.end() || (f != from.end() && *f < *t) ? *f : *t;
+        int forward = 0;
+        int backward = 0;
+        for (; f != from.end() && *f == end; ++f) ++forward;
+        for (; t != to.end() && *t == end; ++t) ++backward;
+        if (forward + backward == 1) ++counts.boundary;
+        if (forward + backward > 2) ++counts.nonManifold;
+        if (forward + backward == 2 && forward != backward) ++counts.incoherent;
+      }
     }
   });
-  return isSo;
-}
-
-std::vector<EdgeUse> edgeUses(Eigen::Index vertexCount, const Faces& faces) {
-  const VertexCorners at = vertexCorners(vertexCount, faces);
-  const int* corner = faces.data();
-  std::vector<EdgeUse> uses;
-  uses.reserve(static_cast<std::size_t>(faces.size() / 2));
-  std::vector<std::pair<int, int>> ends; // the larger index, and whether the face runs backwards
-  for (Eigen::Index v = 0; v < vertexCount; ++v) {
-    ends.clear();
-    for (const int c : at.at(v)) {
-      const int next = corner[nextHalfEdge(c)];
-      const int previous = corner[previousHalfEdge(c)];
-      if (next > v) ends.emplace_back(next, 0);
-      if (previous > v) ends.emplace_back(previous, 1);
-    }
-    std::sort(ends.begin(), ends.end());
-    for (std::size_t i = 0; i < ends.size(); ++i) {
-      if (i == 0 || ends[i].first != ends[i - 1].first) uses.emplace_back();
-      ++(ends[i].second == 0 ? uses.back().forward : uses.back().backward);
-    }
+  EdgeCounts all;
+  for (const EdgeCounts& part : parts) {
+    all.boundary += part.boundary;
+    all.nonManifold += part.nonManifold;
+    all.incoherent += part.incoherent;
   }
-  return uses;
+  return all;
 }
 
 } // namespace massprops

@@ -3,6 +3,7 @@
 
 #include "core/types.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace massprops {
@@ -31,16 +32,13 @@ struct VertexCorners {
 };
 VertexCorners vertexCorners(Eigen::Index vertexCount, const Faces& faces);
 
-/// Whether every edge has two faces that run along it in opposite directions. No need for a
-/// manifold; corners of a face must differ.
-bool hasTwoFacesAtEveryEdge(Eigen::Index vertexCount, const Faces& faces);
-
-/// How many faces run along an edge, from the smaller to the larger index and back.
-struct EdgeUse {
-  int forward = 0;
-  int backward = 0;
+/// Edges that a closed, coherently oriented manifold does not have; each is counted once.
+struct EdgeCounts {
+  std::size_t boundary = 0;    ///< of one face
+  std::size_t nonManifold = 0; ///< of more than two faces
+  std::size_t incoherent = 0;  ///< of two faces that run along it in the same direction
 };
-/// Of every edge, by its smaller index. No need for a manifold; corners of a face must differ.
-std::vector<EdgeUse> edgeUses(Eigen::Index vertexCount, const Faces& faces);
+/// No need for a manifold; corners of a face must differ.
+EdgeCounts countEdges(Eigen::Index vertexCount, const Faces& faces);
 
 } // namespace massprops

@@ -109,13 +109,13 @@ Moments moments(const Points& vertices, const Faces& faces, bool withSecond) {
   return result;
 }
 
-RatedMoments ratedMoments(const Points& vertices, const Faces& faces, const Points& directions,
-                          bool withSecond) {
+MomentsWithRates momentsWithRates(const Points& vertices, const Faces& faces,
+                                  const Points& directions, bool withSecond) {
   const Eigen::Index n = faces.rows();
-  RatedMoments result;
+  MomentsWithRates result;
   if (withSecond) {
     inParallel([&] { result.rates = rates<true>(vertices, faces, directions, 0, n); },
-               [&] { result.value = moments(vertices, faces); });
+               [&] { result.moments = moments(vertices, faces); });
     return result;
   }
   // Four terms are so few that a second array for half of the faces is worth its memory.
@@ -123,7 +123,7 @@ RatedMoments ratedMoments(const Points& vertices, const Faces& faces, const Poin
   inParallel([&] { result.rates = rates<false>(vertices, faces, directions, 0, n / 2); },
              [&] { others = rates<false>(vertices, faces, directions, n / 2, n); });
   result.rates += others;
-  result.value = moments(vertices, faces, false);
+  result.moments = moments(vertices, faces, false);
   return result;
 }
 

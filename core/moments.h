@@ -17,16 +17,16 @@ using MomentRates = RowMatrix;
 /// `withSecond`: if not, those of degree 2 are left 0, which saves half of the time.
 Moments moments(const Points& vertices, const Faces& faces, bool withSecond = true);
 
-struct RatedMoments {
-  Moments value;
-  MomentRates rates;
+struct MomentsWithRates {
+  Moments moments;
+  MomentRates rates; ///< n×10 or n×4
 };
 
 /// `moments`, and their exact derivative when vertex i moves along row i of `directions` (n×3, any
 /// length). docs/math.md "Derivative of the moments".
 /// `withSecond`: with the moments of degree 2 and their rates.
-RatedMoments ratedMoments(const Points& vertices, const Faces& faces, const Points& directions,
-                          bool withSecond = true);
+MomentsWithRates momentsWithRates(const Points& vertices, const Faces& faces,
+                                  const Points& directions, bool withSecond = true);
 
 /// Moments of the same body moved by `shift`.
 Moments translated(const Moments& moments, const Vec3& shift);

@@ -53,19 +53,32 @@ MomentJacobian jacobian(const OffsetModel& model, MomentRates rates, const Vecto
   return result;
 }
 
+/// x_i + sign·offset_i·d_i
+Points displaced(const OffsetModel& model, const Vector& offsets, double sign) {
+  Points result(offsets.size(), 3);
+  forChunks(offsets.size(), kChunk, [&](const Chunk& chunk) {
+    const Eigen::Index size = chunk.end - chunk.begin;
+    const auto lengths = sign * offsets.segment(chunk.begin, size);
+    result.middleRows(chunk.begin, size) =
+        model.vertices.middleRows(chunk.begin, size) +
+        lengths.asDiagonal() * model.directions.middleRows(chunk.begin, size);
+  });
+  return result;
+}
+
 CavityMoments momentsOf(const OffsetModel& model, const OffsetSurfaces& surfaces,
                         bool usesInertia) {
   if (model.isOpen) {
     // The strips and lids have corners on the outer surface, which rest.
     const Eigen::Index n = model.vertices.rows();
-    const RatedMoments both =
-        ratedMoments(stacked(surfaces.inner, model.vertices), model.innerFaces,
-                     stacked(model.directions, Points::Zero(n, 3)), usesInertia);
-    return {both.value, jacobian(model, both.rates.topRows(n), surfaces.innerSlopes, -1.0)};
+    const MomentsWithRates both =
+        momentsWithRates(stacked(surfaces.inner, model.vertices), model.innerFaces,
+                         stacked(model.directions, Points::Zero(n, 3)), usesInertia);
+    return {both.moments, jacobian(model, both.rates.topRows(n), surfaces.innerSlopes, -1.0)};
   }
-  RatedMoments inner =
-      ratedMoments(surfaces.inner, model.innerFaces, model.directions, usesInertia);
-  return {inner.value, jacobian(model, std::move(inner.rates), surfaces.innerSlopes, -1.0)};
+  MomentsWithRates inner =
+      momentsWithRates(surfaces.inner, model.innerFaces, model.directions, usesInertia);
+  return {inner.moments, jacobian(model, std::move(inner.rates), surfaces.innerSlopes, -1.0)};
 }
 
 /// Terms 1–3 and 5, while the outer surface stays.
@@ -86,19 +99,12 @@ OffsetSurfaces offsetSurfaces(const OffsetModel& model, const Vector& coefficien
   BoundedOffsets inner = boundMap(model.inner, fieldOf(model, coefficients.head(k)));
   surfaces.innerOffsets = std::move(inner.offsets);
   surfaces.innerSlopes = std::move(inner.slopes);
-  surfaces.inner.resize(model.vertices.rows(), 3);
-  forChunks(model.vertices.rows(), kChunk, [&](const Chunk& chunk) {
-    const Eigen::Index size = chunk.end - chunk.begin;
-    surfaces.inner.middleRows(chunk.begin, size) =
-        model.vertices.middleRows(chunk.begin, size) -
-        surfaces.innerOffsets.segment(chunk.begin, size).asDiagonal() *
-            model.directions.middleRows(chunk.begin, size);
-  });
+  surfaces.inner = displaced(model, surfaces.innerOffsets, -1.0);
   if (model.outer) {
     BoundedOffsets outer = boundMap(*model.outer, fieldOf(model, coefficients.tail(k)));
     surfaces.outerOffsets = std::move(outer.offsets);
     surfaces.outerSlopes = std::move(outer.slopes);
-    surfaces.outer = model.vertices + surfaces.outerOffsets.asDiagonal() * model.directions;
+    surfaces.outer = displaced(model, surfaces.outerOffsets, 1.0);
   }
   return surfaces;
 }
@@ -116,9 +122,9 @@ Evaluation evaluate(const OffsetModel& model, const Goal& goal, const Weights& w
   Evaluation e;
   if (model.outer) {
     const double solidVolume = model.solidMoments[0];
-    RatedMoments moved =
-        ratedMoments(surfaces.outer, model.faces, model.directions, goal.usesInertia());
-    const Moments& outer = moved.value;
+    MomentsWithRates moved =
+        momentsWithRates(surfaces.outer, model.faces, model.directions, goal.usesInertia());
+    const Moments& outer = moved.moments;
     const MomentJacobian outerJacobian =
         jacobian(model, std::move(moved.rates), surfaces.outerSlopes, 1.0);
     MomentJacobian massJacobian(10, 2 * k);

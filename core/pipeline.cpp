@@ -51,13 +51,12 @@ struct Schedule {
 
 Schedule scheduleFor(Eigen::Index vertexCount, int basisSize, bool isCopied) {
   const auto n = static_cast<double>(vertexCount);
-  const double moving =
-      isCopied ? std::min(n, 0.8 * static_cast<double>(carrying(basisSize, kCage).most)) : n;
+  const auto cage = static_cast<double>(carrying(basisSize, kCage).most);
+  const auto proxy = static_cast<double>(carrying(basisSize, kProxy).most);
+  const double moving = isCopied ? std::min(n, 0.8 * cage) : n;
   const double check = 1.3e-6 * n;
-  const double copy =
-      isCopied ? 7e-7 * n + 1.2e-6 * std::min(n, static_cast<double>(kCage.most)) : 0.0;
-  const double skeleton =
-      2.7e-5 * std::min(n, static_cast<double>(carrying(basisSize, kProxy).most)) + 1e-7 * n;
+  const double copy = isCopied ? 7e-7 * n + 1.2e-6 * std::min(n, cage) : 0.0;
+  const double skeleton = 2.7e-5 * std::min(n, proxy) + 1e-7 * n;
   const double directions = 2.3e-6 * moving;
   const double search = 1.25e-5 * moving + 6e-7 * n;
   const double total = check + copy + skeleton + directions + search;
@@ -173,7 +172,7 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   const std::unique_ptr<Goal> goal = makeGoal(options, piece, piece.vertices);
   const Coarseness whole{n, n, 0.0};
   std::optional<Limit> limit;
-  std::optional<CoarseSurface> ground;
+  std::optional<CoarseSurface> coarse;
   // The limit needs no copies: both cores work.
   inParallel(
       [&] {
@@ -186,20 +185,20 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
       },
       [&] {
         tell(schedule.copy, "Coarse copies");
-        ground.emplace(coarseSurface(
+        coarse.emplace(coarseSurface(
             piece, needsAll ? whole : carrying(options.basisSize, kCage),
             options.fullResolution ? whole : carrying(options.basisSize, kProxy), options.basisSize,
             [&] { tell(schedule.skeleton, "Mean curvature skeleton and harmonic basis"); },
             stages));
       });
-  const bool isCopy = ground->cage.mesh.vertices.rows() < n;
-  const Points& x = ground->cage.mesh.vertices;
-  const Faces& faces = ground->cage.mesh.faces;
-  const Proxy& proxy = ground->proxy;
+  const bool isCopy = coarse->cage.mesh.vertices.rows() < n;
+  const Points& x = coarse->cage.mesh.vertices;
+  const Faces& faces = coarse->cage.mesh.faces;
+  const Proxy& proxy = coarse->proxy;
   stages.repairs = solid.repairs().describe();
 
   tell(schedule.directions, "Offset directions");
-  const Points axis = smoothedOverSurface(ground->skeleton.points, ground->laplacian, ground->area,
+  const Points axis = smoothedOverSurface(coarse->skeleton.points, coarse->laplacian, coarse->area,
                                           kDiffusionLength);
   Points fineAxis = proxy.interpolation * axis;
   if (piece.open) fineAxis = levelAtRim(x, faces, piece.isLid, *piece.open, fineAxis);
@@ -212,7 +211,7 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   };
   const SparseMatrix L =
       options.weights.smoothness > 0.0 ? cotanLaplacian(x, faces) : SparseMatrix();
-  CavityTask task{surface, x, faces, field, ground->basis, L, ground->mass, *goal, options.weights};
+  CavityTask task{surface, x, faces, field, coarse->basis, L, coarse->mass, *goal, options.weights};
   if (!proxy.interpolation.isIdentity()) task.proxy = &proxy;
   if (piece.open) task.open = &*piece.open;
   task.solidMoments = solidMoments;
@@ -268,7 +267,7 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   tell(Schedule::kEnd, "Report");
   Result result;
   if (cavity.status == CavityStatus::Found) {
-    const std::vector<int> places = placesInSolid(piece, ground->cage.vertexOf);
+    const std::vector<int> places = placesInSolid(piece, coarse->cage.vertexOf);
     Points positions = representable(toModel(piece.frame, placed(cavity.inner, places)));
     Faces cavityFaces = cavity.cavity.faces;
     if (piece.open) {

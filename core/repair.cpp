@@ -21,13 +21,6 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
-bool isOpen(Eigen::Index vertexCount, const Faces& faces) {
-  if (hasTwoFacesAtEveryEdge(vertexCount, faces)) return false;
-  const std::vector<EdgeUse> uses = edgeUses(vertexCount, faces);
-  return std::any_of(uses.begin(), uses.end(),
-                     [](const EdgeUse& use) { return use.forward + use.backward == 1; });
-}
-
 /// Every vertex becomes the first one with the same coordinates. Returns how many changed.
 int mergeCoincident(TriangleMesh& mesh) {
   std::vector<int> order(static_cast<std::size_t>(mesh.vertices.rows()));
@@ -132,7 +125,7 @@ RepairedMesh mergedAndCompacted(const TriangleMesh& mesh) {
   Faces& faces = result.mesh.faces;
   Repairs& repairs = result.repairs;
   repairs.zeroAreaFaces += removeFacesWithACornerTwice(faces);
-  if (isOpen(result.mesh.vertices.rows(), faces)) {
+  if (countEdges(result.mesh.vertices.rows(), faces).boundary > 0) {
     repairs.mergedVertices = mergeCoincident(result.mesh);
     repairs.zeroAreaFaces += removeFacesWithACornerTwice(faces);
   }

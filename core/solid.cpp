@@ -42,16 +42,7 @@ void requireFiniteTriangles(const TriangleMesh& mesh) {
 
 /// Returns the number of boundary edges, of which there may be some where openings are allowed.
 std::size_t requireManifoldEdges(const TriangleMesh& mesh, bool mayBeOpen) {
-  if (hasTwoFacesAtEveryEdge(mesh.vertices.rows(), mesh.faces)) return 0;
-  std::size_t boundary = 0;
-  std::size_t nonManifold = 0;
-  std::size_t incoherent = 0;
-  for (const EdgeUse& use : edgeUses(mesh.vertices.rows(), mesh.faces)) {
-    const int faces = use.forward + use.backward;
-    if (faces == 1) ++boundary;
-    if (faces > 2) ++nonManifold;
-    if (faces == 2 && use.forward != use.backward) ++incoherent;
-  }
+  const auto [boundary, nonManifold, incoherent] = countEdges(mesh.vertices.rows(), mesh.faces);
   if (nonManifold > 0) {
     throw InvalidInput("The surface has " +
                        count(nonManifold, "non-manifold edge", "non-manifold edges") +

@@ -344,8 +344,8 @@ void TriangleTree::visitNearest(const Distances& distances, const Reach& reach,
   }
 }
 
-template <class Visit>
-void TriangleTree::visitWithin(const Box& box, const double& squaredReach,
+template <class Reach, class Visit>
+void TriangleTree::visitWithin(const Box& box, const Reach& squaredReach,
                                const Visit& visit) const {
   Eigen::Index stack[64];
   int size = 0;
@@ -359,7 +359,7 @@ void TriangleTree::visitWithin(const Box& box, const double& squaredReach,
     const Lanes gaps = squaredGaps(boxes_[static_cast<std::size_t>(node)], box);
     for (int k = 0; k < 4; ++k) {
       stack[size] = 4 * node + k;
-      if (static_cast<double>(gaps[k]) < squaredReach) ++size;
+      if (static_cast<double>(gaps[k]) < squaredReach()) ++size;
     }
   }
 }
@@ -426,7 +426,8 @@ double TriangleTree::squaredDistance(const Vec3& a, const Vec3& b, const Vec3& c
     }
   };
   // The bound is near the distance most often: no order would bring it down much sooner.
-  visitWithin(box, least, visit);
+  visitWithin(
+      box, [&] { return least; }, visit);
   return least;
 }
 

@@ -94,9 +94,9 @@ private:
   /// `reach`(), of four the nearest one first; a visit may bring the reach down.
   template <class Distances, class Reach, class Visit>
   void visitNearest(const Distances& distances, const Reach& reach, const Visit& visit) const;
-  /// The same for the distances from a box, in any order.
-  template <class Visit>
-  void visitWithin(const Box& box, const double& squaredReach, const Visit& visit) const;
+  /// The same for the squared distances from `box`, in any order.
+  template <class Reach, class Visit>
+  void visitWithin(const Box& box, const Reach& squaredReach, const Visit& visit) const;
   Eigen::Index firstPlace(Eigen::Index leaf) const { return leaf * faces_.rows() / leaves_; }
   /// Not more than the squared distances of the boxes from `other`.
   Lanes squaredGaps(const FourBoxes& boxes, const Box& other) const;

@@ -5,6 +5,8 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -77,29 +79,11 @@ private:
     return {ab.cross(ac), std::sqrt(ab.squaredNorm() * ac.squaredNorm())};
   }
 
-  struct Box {
-    Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity());
-    Vec3 upper = -lower;
-
-    void add(const Box& other) {
-      lower = lower.cwiseMin(other.lower);
-      upper = upper.cwiseMax(other.upper);
-    }
-    bool meets(const Box& other) const {
-      for (int k = 0; k < 3; ++k) {
-        if (lower[k] > other.upper[k] || upper[k] < other.lower[k]) return false;
-      }
-      return true;
-    }
-  };
+  using Box = Eigen::AlignedBox3d;
 
   Box boxOf(int f) const {
-    const Vec3 a = point(faces_(f, 0));
-    const Vec3 b = point(faces_(f, 1));
-    const Vec3 c = point(faces_(f, 2));
     Box box;
-    box.lower = a.cwiseMin(b).cwiseMin(c);
-    box.upper = a.cwiseMax(b).cwiseMax(c);
+    for (const int v : faces_.row(f)) box.extend(point(v));
     return box;
   }
 
@@ -246,7 +230,7 @@ private:
       if (length > 0.0) axis += n.vector / length;
       edge += std::sqrt(n.length);
       boxes[i - begin] = boxOf(f);
-      all.add(boxes[i - begin]);
+      all.extend(boxes[i - begin]);
     }
     edge /= static_cast<double>(end - begin);
     patches.first = patches.next;
@@ -264,7 +248,7 @@ private:
         }
       }
       window.slack =
-          kSafe * (all.lower.cwiseAbs().cwiseMax(all.upper.cwiseAbs()).maxCoeff() + edge);
+          kSafe * (all.min().cwiseAbs().cwiseMax(all.max().cwiseAbs()).maxCoeff() + edge);
       window.lower.array() -= kMargin * edge;
       window.upper.array() += kMargin * edge;
       constexpr int kMostPatches = 4;
@@ -283,15 +267,15 @@ private:
       patchOf[i - begin] = patches.of[at(tree_.faceAt(i))];
       isOnePatch = isOnePatch && patchOf[i - begin] == common;
     }
-    tree_.forOverlaps(all.lower, all.upper, begin, [&](Eigen::Index i) {
+    tree_.forOverlaps(all.min(), all.max(), begin, [&](Eigen::Index i) {
       const int f = tree_.faceAt(i);
       const int patch = patches.of[at(f)];
       const bool isKnown = patch >= patches.first;
       if (isOnePatch && patch == common) return;
       const Box box = boxOf(f);
-      if (!box.meets(all)) return;
+      if (!box.intersects(all)) return;
       for (Eigen::Index j = begin; j < std::min(end, i); ++j) {
-        if (!box.meets(boxes[j - begin]) || (isKnown && patchOf[j - begin] == patch)) continue;
+        if (!box.intersects(boxes[j - begin]) || (isKnown && patchOf[j - begin] == patch)) continue;
         const int g = tree_.faceAt(j);
         if (cross(f, g)) {
           found.push_back(f);

@@ -233,7 +233,7 @@ TEST(MomentRates, MatchCentralDifferences) {
     Random random(11);
     for (Eigen::Index i = 0; i < directions.rows(); ++i)
       directions.row(i) = random.vector().transpose();
-    const MomentRates rates = ratedMoments(mesh.vertices, mesh.faces, directions).rates;
+    const MomentRates rates = momentsWithRates(mesh.vertices, mesh.faces, directions).rates;
     for (Eigen::Index i = 0; i < directions.rows(); ++i) {
       const Moments difference = centralDifference(mesh, directions, i);
       EXPECT_LT((rates.row(i).transpose() - difference).cwiseAbs().maxCoeff(), 1e-7)
@@ -246,8 +246,8 @@ TEST(MomentRates, ComeWithTheMomentsThemselves) {
   const TriangleMesh mesh = blob(9);
   const Points directions = mesh.vertices.rowwise().normalized();
   const Moments alone = moments(mesh.vertices, mesh.faces);
-  const Moments all = ratedMoments(mesh.vertices, mesh.faces, directions).value;
-  const Moments few = ratedMoments(mesh.vertices, mesh.faces, directions, false).value;
+  const Moments all = momentsWithRates(mesh.vertices, mesh.faces, directions).moments;
+  const Moments few = momentsWithRates(mesh.vertices, mesh.faces, directions, false).moments;
   EXPECT_LT((all - alone).cwiseAbs().maxCoeff(), 1e-14 * alone[0]);
   EXPECT_LT((few.head<4>() - alone.head<4>()).cwiseAbs().maxCoeff(), 1e-14 * alone[0]);
   EXPECT_EQ(few.tail<6>(), Moments::Zero().tail<6>());
@@ -255,15 +255,15 @@ TEST(MomentRates, ComeWithTheMomentsThemselves) {
 
 TEST(MomentRates, OfNoFacesAreZero) {
   const Points points = Points::Random(5, 3);
-  EXPECT_EQ(ratedMoments(points, Faces(0, 3), points).rates, MomentRates::Zero(5, 10));
-  EXPECT_EQ(ratedMoments(points, Faces(0, 3), points, false).rates, MomentRates::Zero(5, 4));
+  EXPECT_EQ(momentsWithRates(points, Faces(0, 3), points).rates, MomentRates::Zero(5, 10));
+  EXPECT_EQ(momentsWithRates(points, Faces(0, 3), points, false).rates, MomentRates::Zero(5, 4));
 }
 
 TEST(MomentRates, OfTheFirstMomentsAloneAreTheSame) {
   const TriangleMesh mesh = blob(7);
   const Points directions = mesh.vertices.rowwise().reverse();
-  const MomentRates all = ratedMoments(mesh.vertices, mesh.faces, directions).rates;
-  const MomentRates few = ratedMoments(mesh.vertices, mesh.faces, directions, false).rates;
+  const MomentRates all = momentsWithRates(mesh.vertices, mesh.faces, directions).rates;
+  const MomentRates few = momentsWithRates(mesh.vertices, mesh.faces, directions, false).rates;
   ASSERT_EQ(few.cols(), 4);
   // Added up in another order.
   EXPECT_LT((few - all.leftCols(4)).cwiseAbs().maxCoeff(), 1e-15 * all.cwiseAbs().maxCoeff());
@@ -278,7 +278,7 @@ TEST(MomentRates, OfARigidTranslationAreTheParallelAxisRule) {
   const Vec3 d(0.3, -1.2, 0.7);
   const Points directions = d.transpose().replicate(mesh.vertices.rows(), 1);
   const Vector sum =
-      ratedMoments(mesh.vertices, mesh.faces, directions).rates.colwise().sum().transpose();
+      momentsWithRates(mesh.vertices, mesh.faces, directions).rates.colwise().sum().transpose();
   const Moments m = momentsOf(mesh);
   const Vec3 S = m.segment<3>(1);
   const Mat3 second = S * d.transpose() + d * S.transpose();
@@ -291,7 +291,7 @@ TEST(MomentRates, OfGrowthFromTheOriginAreThreeFourAndFiveTimesTheMoments) {
   // Euler's theorem for homogeneous functions of degree 3, 4, 5.
   const TriangleMesh mesh = blob(5);
   const Vector sum =
-      ratedMoments(mesh.vertices, mesh.faces, mesh.vertices).rates.colwise().sum().transpose();
+      momentsWithRates(mesh.vertices, mesh.faces, mesh.vertices).rates.colwise().sum().transpose();
   Moments expected = momentsOf(mesh);
   expected[0] *= 3;
   expected.segment<3>(1) *= 4;
