@@ -29,6 +29,7 @@
 #include <cstdio>
 #include <cstring>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -66,7 +67,7 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-double number(const Result& result, const char* key) {
+double number(const Result& result, const std::string& key) {
   return std::get<double>(result.report.at(key));
 }
 
@@ -109,17 +110,17 @@ void measure(const Model& model, bool withSkeleton) {
   const int runs = mesh.vertices.rows() > 100000 ? 3 : 5;
   const double before = residentMegabytes();
   double memory = 0.0;
-  std::vector<double> skeleton, basis, optimization, inspection, total;
+  constexpr const char* kStages[] = {"check", "copy",         "limit",      "skeleton",
+                                     "basis", "optimization", "inspection", "total"};
+  std::map<std::string, std::vector<double>> seconds;
   Result result;
   for (int run = 0; run < runs; ++run) {
     result = Result{};
     result = optimizeMassProperties(mesh, options);
     if (run == 0) memory = residentMegabytes() - before;
-    skeleton.push_back(number(result, "seconds_skeleton"));
-    basis.push_back(number(result, "seconds_basis"));
-    optimization.push_back(number(result, "seconds_optimization"));
-    inspection.push_back(number(result, "seconds_inspection"));
-    total.push_back(number(result, "seconds_total"));
+    for (const char* stage : kStages) {
+      seconds[stage].push_back(number(result, std::string("seconds_") + stage));
+    }
   }
   testing::PropertyCase promise;
   promise.input = promise.body = mesh;
@@ -128,17 +129,16 @@ void measure(const Model& model, bool withSkeleton) {
       0.01 * (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).norm();
   promise.floats = true;
   const std::size_t broken = testing::brokenPromises(promise, result).size();
-  std::printf("%-12s %-5s %8ld %9.3f %8.3f %9.3f %9.3f %8.3f", model.name,
-              model.goal == GoalKind::Stand ? "Stand" : "Spin",
-              static_cast<long>(mesh.vertices.rows()), median(skeleton), median(basis),
-              median(optimization), median(inspection), median(total));
+  std::printf("%-12s %-5s %8ld", model.name, model.goal == GoalKind::Stand ? "Stand" : "Spin",
+              static_cast<long>(mesh.vertices.rows()));
+  for (const char* stage : kStages) std::printf(" %8.3f", median(seconds[stage]));
   if (withSkeleton) {
     std::vector<double> skeletonisation;
     for (int run = 0; run < (mesh.vertices.rows() > 150000 ? 1 : 3); ++run) {
       skeletonisation.push_back(cgalSkeletonSeconds(mesh));
     }
     const double plain = median(skeletonisation);
-    std::printf(" %9.2f %6.3f", plain, median(total) / plain);
+    std::printf(" %9.2f %6.3f", plain, median(seconds["total"]) / plain);
   } else {
     std::printf(" %9s %6s", "-", "-");
   }
@@ -165,9 +165,10 @@ int main(int argc, char** argv) {
   };
   std::printf("Medians, seconds of wall time, %d threads; memory above the input in megabytes.\n",
               threadCount());
-  std::printf("%-12s %-5s %8s %9s %8s %9s %9s %8s %9s %6s %7s %10s %9s  %s\n", "model", "goal",
-              "vertices", "skeleton", "basis", "optimis.", "inspect.", "total", "CGAL's", "ratio",
-              "memory", "objective", "violation", "guarantee");
+  std::printf("%-12s %-5s %8s %8s %8s %8s %8s %8s %8s %8s %8s %9s %6s %7s %10s %9s  %s\n", "model",
+              "goal", "vertices", "check", "copies", "limit", "skeleton", "basis", "optimis.",
+              "inspect.", "total", "CGAL's", "ratio", "memory", "objective", "violation",
+              "guarantee");
   std::fflush(stdout);
   for (const Model& model : models) {
     // A process for each: peak memory is of the whole process, and nothing of one run is left in
