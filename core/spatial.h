@@ -12,10 +12,10 @@ Vector chords(const TriangleTree& surface, const Points& points, const Points& d
 
 struct Clearance {
   /// For every vertex that a face uses: the least distance of the triangles around it from the
-  /// other surface; infinity for other vertices. Below the horizon exact up to rounding; above it
+  /// other surface; infinity for other vertices. Below the horizon exact to a billionth; above it
   /// at least the horizon, at most 5 % more than the least over the triangles' corners.
   Vector distance;
-  double least = 0.0;           ///< of all, exact up to rounding; infinity without faces
+  double least = 0.0;           ///< of all, exact to a billionth; infinity without faces
   std::vector<int> crossing;    ///< faces that cross the other surface, ascending
   std::vector<int> nearestFace; ///< of the other surface, for every vertex; −1 without a face
 };

@@ -141,18 +141,38 @@ double squaredDistanceOfTriangles(const Vec3 (&s)[3], const Vec3 (&t)[3]) {
   return least;
 }
 
-/// Whether a plane across `axis` separates the two by more than the bound: a quick way to be sure.
-bool isFartherAlong(const Vec3& axis, const Vec3 (&s)[3], const Vec3 (&t)[3], double squaredBound) {
-  double ofS[3];
-  double ofT[3];
-  for (int k = 0; k < 3; ++k) {
-    ofS[k] = axis.dot(s[k]);
-    ofT[k] = axis.dot(t[k]);
+/// The squared gap between s and t along `axis`, which points from s to t: no more than their
+/// squared distance.
+double squaredGapAlong(const Vec3& axis, const Vec3 (&s)[3], const Vec3 (&t)[3]) {
+  const double endOfS = std::max({axis.dot(s[0]), axis.dot(s[1]), axis.dot(s[2])});
+  const double startOfT = std::min({axis.dot(t[0]), axis.dot(t[1]), axis.dot(t[2])});
+  const double gap = startOfT - endOfS;
+  return gap > 0.0 ? gap * gap / axis.squaredNorm() : 0.0;
+}
+
+/// The squared distance of s and t where it is below the bound, else no less than the bound, up to
+/// a billionth. Going to the nearest point back and forth between the two ends at their shortest
+/// way, which a gap along it proves [CG59]; where that takes long, or the way is too short for its
+/// direction to be known, all features are compared.
+double squaredDistanceBelow(double squaredBound, const Vec3 (&s)[3], const Vec3 (&t)[3]) {
+  constexpr double kUpToRounding = 1.0 + 1e-9;
+  constexpr double kKnownDirection = 1e-14;
+  constexpr int kSteps = 4;
+  Vec3 ofS = Vec3::Zero();
+  Vec3 ofT = (t[0] + t[1] + t[2]) / 3.0;
+  for (int step = 0; step < kSteps; ++step) {
+    if (step % 2 == 0) {
+      ofS = nearestOnTriangle(ofT, s[0], s[1], s[2]);
+    } else {
+      ofT = nearestOnTriangle(ofS, t[0], t[1], t[2]);
+    }
+    const Vec3 way = ofT - ofS;
+    const double atLeast = kUpToRounding * squaredGapAlong(way, s, t);
+    if (atLeast >= squaredBound) return squaredBound;
+    const double atMost = way.squaredNorm();
+    if (atLeast >= atMost && atMost > kKnownDirection * squaredBound) return atMost;
   }
-  const double gap =
-      std::max(std::min({ofT[0], ofT[1], ofT[2]}) - std::max({ofS[0], ofS[1], ofS[2]}),
-               std::min({ofS[0], ofS[1], ofS[2]}) - std::max({ofT[0], ofT[1], ofT[2]}));
-  return gap > 0.0 && gap * gap * (1.0 - 1e-12) > squaredBound * axis.squaredNorm();
+  return std::min(squaredBound, squaredDistanceOfTriangles(s, t));
 }
 
 } // namespace
@@ -419,10 +439,7 @@ double TriangleTree::squaredDistance(const Vec3& a, const Vec3& b, const Vec3& c
       if (static_cast<double>(atLeast[i - begin]) >= least) continue;
       const int f = faceAt(i);
       const Vec3 t[3] = {corner(f, 0), corner(f, 1), corner(f, 2)};
-      // The shortest way to the middle of t is nearly the shortest way, most often.
-      const Vec3 middle = (t[0] + t[1] + t[2]) / 3.0;
-      if (isFartherAlong(middle - nearestOnTriangle(middle, a, b, c), s, t, least)) continue;
-      least = std::min(least, squaredDistanceOfTriangles(s, t));
+      least = squaredDistanceBelow(least, s, t);
     }
   };
   // The bound is near the distance most often: no order would bring it down much sooner.

@@ -55,8 +55,8 @@ public:
   /// Squared distance of a point from one face.
   double squaredDistance(const Vec3& p, int face) const;
 
-  /// Squared distance of the triangle (a, b, c) from the surface if below `squaredBound`, else
-  /// that; 0 where they cross.
+  /// Squared distance, to a billionth, of the triangle (a, b, c) from the surface if below
+  /// `squaredBound`, else that; 0 where they cross.
   double squaredDistance(const Vec3& a, const Vec3& b, const Vec3& c, double squaredBound) const;
 
   /// Length along the unit `direction` to the first triangle that does not have `start` as a
