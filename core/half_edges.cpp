@@ -23,8 +23,7 @@ VertexCorners vertexCorners(Eigen::Index vertexCount, const Faces& faces) {
   return result;
 }
 
-std::vector<int> oppositeHalfEdges(Eigen::Index vertexCount, const Faces& faces) {
-  const VertexCorners at = vertexCorners(vertexCount, faces);
+std::vector<int> oppositeHalfEdges(const VertexCorners& corners, const Faces& faces) {
   const int* corner = faces.data();
   std::vector<int> opposite(static_cast<std::size_t>(faces.size()), -1);
   constexpr Eigen::Index kChunk = 32768;
@@ -33,7 +32,7 @@ std::vector<int> oppositeHalfEdges(Eigen::Index vertexCount, const Faces& faces)
       const int from = corner[h];
       const int to = corner[nextHalfEdge(static_cast<int>(h))];
       if (from > to) continue; // the other one finds it
-      for (const int other : at.at(to)) {
+      for (const int other : corners.at(to)) {
         if (corner[nextHalfEdge(other)] == from) {
           opposite[static_cast<std::size_t>(h)] = other;
           opposite[static_cast<std::size_t>(other)] = static_cast<int>(h);
@@ -43,6 +42,10 @@ std::vector<int> oppositeHalfEdges(Eigen::Index vertexCount, const Faces& faces)
     }
   });
   return opposite;
+}
+
+std::vector<int> oppositeHalfEdges(Eigen::Index vertexCount, const Faces& faces) {
+  return oppositeHalfEdges(vertexCorners(vertexCount, faces), faces);
 }
 
 EdgeCounts countEdges(Eigen::Index vertexCount, const Faces& faces) {

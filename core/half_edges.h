@@ -8,10 +8,7 @@
 
 namespace massprops {
 
-/// Half-edge 3f + k runs from corner k of face f to the next one. For each the half-edge that runs
-/// the other way; −1 where the surface has no such. \pre no directed edge is there twice
-std::vector<int> oppositeHalfEdges(Eigen::Index vertexCount, const Faces& faces);
-
+/// Half-edges are numbered as the corners that they begin at.
 inline int nextHalfEdge(int h) {
   return h % 3 == 2 ? h - 2 : h + 1;
 }
@@ -31,6 +28,12 @@ struct VertexCorners {
   }
 };
 VertexCorners vertexCorners(Eigen::Index vertexCount, const Faces& faces);
+
+/// Half-edge 3f + k runs from corner k of face f to the next one. For each the half-edge that runs
+/// the other way; −1 where the surface has no such. \pre no directed edge is there twice
+/// `corners`: those of `faces`, for callers that have them.
+std::vector<int> oppositeHalfEdges(const VertexCorners& corners, const Faces& faces);
+std::vector<int> oppositeHalfEdges(Eigen::Index vertexCount, const Faces& faces);
 
 /// Edges that a closed, coherently oriented manifold does not have; each is counted once.
 struct EdgeCounts {

@@ -2,6 +2,7 @@
 
 #include "core/components.h"
 #include "core/half_edges.h"
+#include "core/parallel.h"
 #include "core/validity.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -69,34 +70,39 @@ int removeDuplicates(Eigen::Index vertexCount, Faces& faces) {
   };
   const VertexCorners at = vertexCorners(vertexCount, faces);
   std::vector<char> remove(static_cast<std::size_t>(faces.rows()), 0);
-  std::vector<Corners> same;
-  for (Eigen::Index v = 0; v < vertexCount; ++v) {
-    same.clear();
-    for (const int c : at.at(v)) {
-      const int next = faces.data()[nextHalfEdge(c)];
-      const int previous = faces.data()[previousHalfEdge(c)];
-      if (next < v || previous < v) continue;
-      same.push_back({std::min(next, previous), std::max(next, previous), previous < next, c / 3});
-    }
-    std::sort(same.begin(), same.end(), [](const Corners& a, const Corners& b) {
-      return std::tie(a.middle, a.largest, a.face) < std::tie(b.middle, b.largest, b.face);
-    });
-    for (std::size_t i = 0; i < same.size();) {
-      std::size_t end = i;
-      bool hasForward = false;
-      bool hasBackward = false;
-      for (; end < same.size() && same[end].middle == same[i].middle &&
-             same[end].largest == same[i].largest;
-           ++end) {
-        (same[end].backward ? hasBackward : hasForward) = true;
+  constexpr Eigen::Index kChunk = 4096;
+  // Every face is met at its smallest vertex.
+  forChunks(vertexCount, kChunk, [&](const Chunk& chunk) {
+    std::vector<Corners> same;
+    for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
+      same.clear();
+      for (const int c : at.at(v)) {
+        const int next = faces.data()[nextHalfEdge(c)];
+        const int previous = faces.data()[previousHalfEdge(c)];
+        if (next < v || previous < v) continue;
+        same.push_back(
+            {std::min(next, previous), std::max(next, previous), previous < next, c / 3});
       }
-      for (std::size_t j = i; j < end; ++j) {
-        const bool goes = j > i || (hasForward && hasBackward);
-        remove[static_cast<std::size_t>(same[j].face)] = goes ? 1 : 0;
+      std::sort(same.begin(), same.end(), [](const Corners& a, const Corners& b) {
+        return std::tie(a.middle, a.largest, a.face) < std::tie(b.middle, b.largest, b.face);
+      });
+      for (std::size_t i = 0; i < same.size();) {
+        std::size_t end = i;
+        bool hasForward = false;
+        bool hasBackward = false;
+        for (; end < same.size() && same[end].middle == same[i].middle &&
+               same[end].largest == same[i].largest;
+             ++end) {
+          (same[end].backward ? hasBackward : hasForward) = true;
+        }
+        for (std::size_t j = i; j < end; ++j) {
+          const bool goes = j > i || (hasForward && hasBackward);
+          remove[static_cast<std::size_t>(same[j].face)] = goes ? 1 : 0;
+        }
+        i = end;
       }
-      i = end;
     }
-  }
+  });
   return keepFaces(faces, [&](Eigen::Index f) { return remove[static_cast<std::size_t>(f)] == 0; });
 }
 

@@ -5,10 +5,12 @@
 #include "core/half_edges.h"
 #include "core/lids.h"
 #include "core/moments.h"
+#include "core/parallel.h"
 #include "core/validity.h"
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -68,23 +70,26 @@ void requireManifoldVertices(const TriangleMesh& mesh) {
   // Turning round a vertex from one face to the next, from a boundary if there is one, must lead
   // through all of its faces.
   const VertexCorners corners = vertexCorners(mesh.vertices.rows(), mesh.faces);
-  const std::vector<int> opposite = oppositeHalfEdges(mesh.vertices.rows(), mesh.faces);
-  std::size_t bad = 0;
-  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
-    const IndexRange all = corners.at(v);
-    if (all.size() == 0) continue;
-    const int* const boundary = std::find_if(all.begin(), all.end(), [&](int corner) {
-      return opposite[static_cast<std::size_t>(corner)] < 0;
-    });
-    const int first = boundary != all.end() ? *boundary : *all.begin();
-    std::size_t turned = 0;
-    int corner = first;
-    do {
-      ++turned;
-      corner = opposite[static_cast<std::size_t>(previousHalfEdge(corner))];
-    } while (corner >= 0 && corner != first && turned <= all.size());
-    if (turned != all.size()) ++bad;
-  }
+  const std::vector<int> opposite = oppositeHalfEdges(corners, mesh.faces);
+  std::atomic<std::size_t> bad = 0;
+  constexpr Eigen::Index kChunk = 4096;
+  forChunks(mesh.vertices.rows(), kChunk, [&](const Chunk& chunk) {
+    for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
+      const IndexRange all = corners.at(v);
+      if (all.size() == 0) continue;
+      const int* const boundary = std::find_if(all.begin(), all.end(), [&](int corner) {
+        return opposite[static_cast<std::size_t>(corner)] < 0;
+      });
+      const int first = boundary != all.end() ? *boundary : *all.begin();
+      std::size_t turned = 0;
+      int corner = first;
+      do {
+        ++turned;
+        corner = opposite[static_cast<std::size_t>(previousHalfEdge(corner))];
+      } while (corner >= 0 && corner != first && turned <= all.size());
+      if (turned != all.size()) ++bad;
+    }
+  });
   if (bad > 0) {
     throw InvalidInput("The surface touches itself at " +
                        count(bad, "non-manifold vertex", "non-manifold vertices") +
@@ -222,7 +227,12 @@ Solid makeSolid(const TriangleMesh& input, bool closeOpenings, const Mat3& rotat
       mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff();
   solid.diagonal_ = extent.norm();
   const double roundOff = 1e-12 * std::pow(solid.diagonal_, 3);
-  Components components = connectedComponents(mesh.vertices.rows(), mesh.faces);
+  Components components;
+  inParallel([&] { components = connectedComponents(mesh.vertices.rows(), mesh.faces); },
+             [&] {
+               solid.spatialFaceOrder_ =
+                   orderInSpace(mesh.vertices, mesh.faces, rotation, solid.diagonal_);
+             });
   std::vector<double> volumes;
   for (const Faces& component : components) {
     volumes.push_back(volumeOf(mesh.vertices, component));
@@ -232,7 +242,6 @@ Solid makeSolid(const TriangleMesh& input, bool closeOpenings, const Mat3& rotat
                          "is a solid body.");
     }
   }
-  solid.spatialFaceOrder_ = orderInSpace(mesh.vertices, mesh.faces, rotation, solid.diagonal_);
   requireNoSelfIntersection(mesh, solid.spatialFaceOrder_,
                             boundary > 0 ? skinFaces : mesh.faces.rows());
   const std::vector<int> depths = nestingDepths(mesh.vertices, components);

@@ -37,7 +37,7 @@ class SelfIntersections {
 public:
   explicit SelfIntersections(const TriangleTree& surface)
       : x_(surface.vertices()), faces_(surface.faces()), tree_(surface),
-        opposite_(oppositeHalfEdges(x_.rows(), faces_)),
+        corners_(vertexCorners(x_.rows(), faces_)), opposite_(oppositeHalfEdges(corners_, faces_)),
         isEmbedded_(static_cast<std::size_t>(x_.rows())) {}
 
   std::vector<int> find() {
@@ -94,14 +94,13 @@ private:
   /// A vertex's fan is embedded when all its triangles face one direction and go round it once,
   /// seen from there.
   void findEmbeddedFans() {
-    const VertexCorners corners = vertexCorners(x_.rows(), faces_);
     constexpr Eigen::Index kChunk = 4096;
     forChunks(x_.rows(), kChunk, [&](const Chunk& chunk) {
       std::vector<Normal> normals;
       for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
         normals.clear();
         Vec3 axis = Vec3::Zero();
-        for (const int corner : corners.at(v)) {
+        for (const int corner : corners_.at(v)) {
           normals.push_back(normal(corner / 3));
           const double length = normals.back().vector.norm();
           if (length > 0.0) axis += normals.back().vector / length;
@@ -117,7 +116,7 @@ private:
         const Vec3 across = axis.unitOrthogonal();
         int turns = 0;
         bool isClosed = true;
-        for (const int corner : corners.at(v)) {
+        for (const int corner : corners_.at(v)) {
           isClosed = isClosed && opposite_[at(corner)] >= 0;
           const Vec3 from = point(faces_.data()[nextHalfEdge(corner)]) - point(static_cast<int>(v));
           const Vec3 to =
@@ -350,6 +349,7 @@ private:
   const Points& x_;
   const Faces& faces_;
   const TriangleTree& tree_;
+  VertexCorners corners_;
   std::vector<int> opposite_;
   std::vector<char> isEmbedded_;
 };
