@@ -72,10 +72,11 @@ struct Modes {
 
 Modes lowestModes(ShiftInvertedLaplacian& op, int k, double shift) {
   const int n = static_cast<int>(op.rows());
-  const int krylovSize = std::min(n, std::max(2 * k + 1, k + 20));
+  const int krylovSize = std::min(n, std::max(3 * k / 2 + 1, k + 20));
   Spectra::SymEigsShiftSolver<ShiftInvertedLaplacian> solver(op, k, krylovSize, shift);
   solver.init();
-  solver.compute(Spectra::SortRule::LargestMagn, 1000, 1e-12, Spectra::SortRule::SmallestAlge);
+  constexpr double kTolerance = 1e-9;
+  solver.compute(Spectra::SortRule::LargestMagn, 1000, kTolerance, Spectra::SortRule::SmallestAlge);
   if (solver.info() != Spectra::CompInfo::Successful) {
     throw std::runtime_error("the harmonic basis did not converge: lower basis_k, or use "
                              "Remeshing > Isotropic Explicit Remeshing, then run again");
