@@ -228,7 +228,7 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
   OffsetModel model{
       task.vertices, task.faces, task.field.directions, task.basis,       task.L, task.mass, bounds,
       task.outer,    {},         task.fillDensity,      task.solidMoments};
-  if (task.proxy != nullptr) model.interpolation = &task.proxy->interpolation;
+  model.interpolation = task.interpolation;
   model.isOpen = task.open != nullptr;
   const VertexCorners corners = vertexCorners(static_cast<Eigen::Index>(solid.size()), cavityFaces);
   const Vector middle = 0.5 * (bounds.lower + bounds.upper);

@@ -42,7 +42,7 @@ struct CavityTask {
   /// Rounds working positions to those that can be delivered, still in the working frame.
   std::function<Points(const Points&)> deliverable = {};
   /// Null: the basis lives on the vertices themselves.
-  const Proxy* proxy = nullptr;
+  const Interpolation* interpolation = nullptr;
   /// Null: the surface is closed. Otherwise the outer surface rests, and is what moves inwards.
   const OpenSurface* open = nullptr;
 };

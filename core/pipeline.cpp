@@ -72,8 +72,9 @@ struct CoarseSurface {
   CoarseCopy cage;
   Vector mass; ///< of the cage, lumped, total 1
   Proxy proxy;
-  SparseMatrix laplacian; ///< of the proxy
-  Vector area;            ///< that the proxy's vertices stand for on the cage
+  Interpolation interpolation; ///< of the cage's vertices by the proxy's
+  SparseMatrix laplacian;      ///< of the proxy
+  Vector area;                 ///< that the proxy's vertices stand for on the cage
   Skeleton skeleton;
   HarmonicBasis basis;
 };
@@ -87,13 +88,17 @@ CoarseSurface coarseSurface(const Workpiece& piece, const Coarseness& forCage,
   stages.secondsCopy = copying.seconds();
   tellCopied();
   const Vector cageArea = vertexLumpedMass(cage.mesh.vertices, cage.mesh.faces);
-  const SparseMatrix laplacian = cotanLaplacian(proxy.mesh.vertices, proxy.mesh.faces);
-  const Vector area = proxy.interpolation.transposeTimes(cageArea);
-  Skeleton skeleton;
+  Interpolation interpolation = Interpolation::identity(cageArea.size());
+  SparseMatrix laplacian;
+  Vector area;
   HarmonicBasis basis;
+  Skeleton skeleton;
   inParallel(
       [&] {
         const Stopwatch time;
+        interpolation = interpolationFrom(proxy, cage.mesh.vertices);
+        area = interpolation.transposeTimes(cageArea);
+        laplacian = cotanLaplacian(proxy.mesh.vertices, proxy.mesh.faces);
         basis = harmonicBasis(proxy.mesh.vertices, proxy.mesh.faces, laplacian, area / area.sum(),
                               basisSize);
         stages.secondsBasis = time.seconds();
@@ -104,8 +109,9 @@ CoarseSurface coarseSurface(const Workpiece& piece, const Coarseness& forCage,
         stages.secondsSkeleton = time.seconds();
       });
   stages.skeletonFailures = skeleton.failedComponents;
-  return {std::move(cage),     cageArea / cageArea.sum(), std::move(proxy), laplacian, area,
-          std::move(skeleton), std::move(basis)};
+  return {std::move(cage),          cageArea / cageArea.sum(), std::move(proxy),
+          std::move(interpolation), std::move(laplacian),      std::move(area),
+          std::move(skeleton),      std::move(basis)};
 }
 
 /// The outer surface keeps the point that the body hangs from.
@@ -194,13 +200,12 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   const bool isCopy = coarse->cage.mesh.vertices.rows() < n;
   const Points& x = coarse->cage.mesh.vertices;
   const Faces& faces = coarse->cage.mesh.faces;
-  const Proxy& proxy = coarse->proxy;
   stages.repairs = solid.repairs().describe();
 
   tell(schedule.directions, "Offset directions");
   const Points axis = smoothedOverSurface(coarse->skeleton.points, coarse->laplacian, coarse->area,
                                           kDiffusionLength);
-  Points fineAxis = proxy.interpolation * axis;
+  Points fineAxis = coarse->interpolation * axis;
   if (piece.open) fineAxis = levelAtRim(x, faces, piece.isLid, *piece.open, fineAxis);
   const Faces& skin = piece.open ? piece.open->skin : faces;
   OffsetField field = offsetField(x, skin, fineAxis);
@@ -212,7 +217,7 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   const SparseMatrix L =
       options.weights.smoothness > 0.0 ? cotanLaplacian(x, faces) : SparseMatrix();
   CavityTask task{surface, x, faces, field, coarse->basis, L, coarse->mass, *goal, options.weights};
-  if (!proxy.interpolation.isIdentity()) task.proxy = &proxy;
+  if (!coarse->interpolation.isIdentity()) task.interpolation = &coarse->interpolation;
   if (piece.open) task.open = &*piece.open;
   task.solidMoments = solidMoments;
   task.fillDensity = fillingSeenBy(options);

@@ -152,7 +152,7 @@ public:
     return result;
   }
 
-  Interpolation interpolationFrom(const CoarseCopy& copy);
+  std::vector<int> vertexFor(const CoarseCopy& copy);
 
 private:
   /// Of the vertices, by their numbers, which are near each other in space where the numbers are.
@@ -308,54 +308,17 @@ private:
   double mostSquared_ = 0.0;
 };
 
-Interpolation Collapsing::interpolationFrom(const CoarseCopy& copy) {
-  // A vertex lies near the one that it was collapsed onto: from there over the copy, always to
-  // the nearest face around the corners of the last one.
-  const TriangleMesh& mesh = copy.mesh;
-  const Eigen::Index vertexCount = x_.rows();
+/// For every vertex of the surface the vertex of the copy that it was collapsed onto.
+std::vector<int> Collapsing::vertexFor(const CoarseCopy& copy) {
   std::vector<int> number(outgoing_.size(), -1);
   for (std::size_t i = 0; i < copy.vertexOf.size(); ++i) {
     number[at(copy.vertexOf[i])] = static_cast<int>(i);
   }
-  std::vector<int> start(static_cast<std::size_t>(vertexCount), -1);
-  for (int v = 0; v < static_cast<int>(vertexCount); ++v) start[at(v)] = number[at(root(v))];
-  const VertexCorners corners = vertexCorners(mesh.vertices.rows(), mesh.faces);
-  Faces faces(vertexCount, 3);
-  Points weights(vertexCount, 3);
-  forChunks(vertexCount, kChunk, [&](const Chunk& chunk) {
-    for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
-      const Vec3 p = x_.row(v).transpose();
-      double best = std::numeric_limits<double>::infinity();
-      int bestFace = -1;
-      Vec3 bestWeights = Vec3::Zero();
-      const auto visit = [&](int around) {
-        for (const int corner : corners.at(around)) {
-          const int f = corner / 3;
-          if (f == bestFace) continue;
-          const Vec3 a = mesh.vertices.row(mesh.faces(f, 0)).transpose();
-          const Vec3 b = mesh.vertices.row(mesh.faces(f, 1)).transpose();
-          const Vec3 c = mesh.vertices.row(mesh.faces(f, 2)).transpose();
-          const Vec3 w = nearestWeights(p, a, b, c);
-          const double distance = (w[0] * a + w[1] * b + w[2] * c - p).squaredNorm();
-          if (distance < best) {
-            best = distance;
-            bestFace = f;
-            bestWeights = w;
-          }
-        }
-      };
-      visit(start[static_cast<std::size_t>(v)]);
-      constexpr int kMostSteps = 16;
-      for (int step = 0; step < kMostSteps; ++step) {
-        const int last = bestFace;
-        for (const int around : Eigen::RowVector3i(mesh.faces.row(last))) visit(around);
-        if (bestFace == last) break;
-      }
-      faces.row(v) = mesh.faces.row(bestFace);
-      weights.row(v) = bestWeights.transpose();
-    }
-  });
-  return {std::move(faces), std::move(weights), mesh.vertices.rows()};
+  std::vector<int> result(static_cast<std::size_t>(x_.rows()));
+  for (std::size_t v = 0; v < result.size(); ++v) {
+    result[v] = number[at(root(static_cast<int>(v)))];
+  }
+  return result;
 }
 
 bool isMuchLess(Eigen::Index size, const Points& vertices) {
@@ -453,12 +416,60 @@ Proxy makeProxy(const Points& vertices, const Faces& faces, const Coarseness& wa
     Collapsing surface(vertices, faces);
     surface.reduceTo(wanted);
     if (isMuchLess(surface.size(), vertices)) {
-      const CoarseCopy copy = surface.copy();
-      Interpolation interpolation = surface.interpolationFrom(copy);
-      return {copy.mesh, std::move(interpolation)};
+      CoarseCopy copy = surface.copy();
+      std::vector<int> vertexFor = surface.vertexFor(copy);
+      return {std::move(copy.mesh), std::move(vertexFor)};
     }
   }
-  return {{vertices, faces}, Interpolation::identity(vertices.rows())};
+  return {{vertices, faces}, {}};
+}
+
+Interpolation interpolationFrom(const Proxy& proxy, const Points& vertices) {
+  if (proxy.vertexFor.empty()) return Interpolation::identity(vertices.rows());
+  // A vertex lies near the one that it was collapsed onto: from there over the copy, always to
+  // the nearest face around the corners of the last one.
+  const TriangleMesh& mesh = proxy.mesh;
+  const Eigen::Index vertexCount = vertices.rows();
+  const VertexCorners corners = vertexCorners(mesh.vertices.rows(), mesh.faces);
+  Faces faces(vertexCount, 3);
+  Points weights(vertexCount, 3);
+  forChunks(vertexCount, kChunk, [&](const Chunk& chunk) {
+    std::vector<int> visited;
+    for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
+      visited.clear();
+      const Vec3 p = vertices.row(v).transpose();
+      double best = std::numeric_limits<double>::infinity();
+      int bestFace = -1;
+      Vec3 bestWeights = Vec3::Zero();
+      const auto visit = [&](int around) {
+        if (std::find(visited.begin(), visited.end(), around) != visited.end()) return;
+        visited.push_back(around);
+        for (const int corner : corners.at(around)) {
+          const int f = corner / 3;
+          const Vec3 a = mesh.vertices.row(mesh.faces(f, 0)).transpose();
+          const Vec3 b = mesh.vertices.row(mesh.faces(f, 1)).transpose();
+          const Vec3 c = mesh.vertices.row(mesh.faces(f, 2)).transpose();
+          const Vec3 w = nearestWeights(p, a, b, c);
+          const double distance = (w[0] * a + w[1] * b + w[2] * c - p).squaredNorm();
+          if (distance < best) {
+            best = distance;
+            bestFace = f;
+            bestWeights = w;
+          }
+        }
+      };
+      visit(proxy.vertexFor[static_cast<std::size_t>(v)]);
+      constexpr int kMostSteps = 16;
+      for (int step = 0; step < kMostSteps; ++step) {
+        const int last = bestFace;
+        for (const int around : Eigen::RowVector3i(mesh.faces.row(last))) visit(around);
+        if (bestFace == last) break;
+      }
+      faces.row(v) = mesh.faces.row(bestFace);
+      weights.row(v) = bestWeights.transpose();
+    }
+  });
+  return {std::move(faces), std::move(weights), mesh.vertices.rows()};
 }
 
 } // namespace massprops

@@ -56,12 +56,17 @@ CoarseCopy coarseCopy(const Points& vertices, const Faces& faces, const Coarsene
 
 struct Proxy {
   TriangleMesh mesh; ///< a coarse copy
-  /// The surface's vertices by the proxy's, at the points of the proxy next to them.
-  Interpolation interpolation;
+  /// For every vertex of the surface the one of the proxy that it fell together with; empty where
+  /// the proxy is the surface itself.
+  std::vector<int> vertexFor;
 };
 
 /// A coarse copy that carries functions.
 /// \pre closed manifold components
 Proxy makeProxy(const Points& vertices, const Faces& faces, const Coarseness& wanted);
+
+/// The surface's vertices by the proxy's, at the points of the proxy next to them.
+/// `vertices`: those of the surface that the proxy was made for.
+Interpolation interpolationFrom(const Proxy& proxy, const Points& vertices);
 
 } // namespace massprops
