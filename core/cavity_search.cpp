@@ -17,6 +17,8 @@ constexpr int kMostRounds = 30;
 constexpr int kPatience = 10;
 /// Rounds that may fill narrow parts: each can lay bare a few more.
 constexpr int kTrims = 3;
+/// Filling less than this share of the cavity's vertices is not worth another such round.
+constexpr double kWorthTrimming = 0.01;
 /// A step that was seen to clear most folds in one to three rounds.
 constexpr double kShrink = 0.6;
 /// The outer surface starts near where it was: it is to look the same.
@@ -123,18 +125,18 @@ void calmOuter(const CavityTask& task, const CavityResult& result, const Neighbo
 
 /// Marks vertices where the cavity is narrower than the wall: such a channel serves no goal, cannot
 /// be printed, and is where the surface folds first. `fillUnwanted`: a wider one, too, that the
-/// optimisation would rather close, its offsets being near the greatest. Returns whether there were
-/// any.
+/// optimisation would rather close, its offsets being near the greatest. Returns how many there
+/// were.
 /// `faces`: of the cavity, without an open surface's strips and lids.
-bool fillNarrowParts(const CavityTask& task, const OffsetSurfaces& surfaces,
-                     const OffsetBounds& bounds, const Faces& faces, bool fillUnwanted,
-                     std::vector<char>& solid) {
+Eigen::Index fillNarrowParts(const CavityTask& task, const OffsetSurfaces& surfaces,
+                             const OffsetBounds& bounds, const Faces& faces, bool fillUnwanted,
+                             std::vector<char>& solid) {
   const Points& inner = surfaces.inner;
-  if (faces.rows() == 0) return false;
+  if (faces.rows() == 0) return 0;
   const TriangleTree tree(inner, faces, TriangleTree::Order::Any,
                           TriangleTree::Queries::NoDistances);
   constexpr Eigen::Index kChunk = 1024;
-  std::atomic<bool> any = false;
+  std::atomic<Eigen::Index> filled = 0;
   forChunks(inner.rows(), kChunk, [&](const Chunk& chunk) {
     for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
       char& mark = solid[static_cast<std::size_t>(v)];
@@ -146,10 +148,10 @@ bool fillNarrowParts(const CavityTask& task, const OffsetSurfaces& surfaces,
       const Vec3 inwards = -task.field.directions.row(v).transpose();
       if (tree.firstHit(inner.row(v).transpose(), inwards, width) >= width) continue;
       mark = 1;
-      any = true;
+      ++filled;
     }
   });
-  return any;
+  return filled;
 }
 
 void addMarks(std::vector<char>& solid, const std::vector<char>& more) {
@@ -202,15 +204,15 @@ bool closesOpening(const CavityTask& task, const std::vector<char>& solid) {
                      [&](int v) { return solid[static_cast<std::size_t>(v)] != 0; });
 }
 
-Inspection inspectResult(const CavityTask& task, const CavityResult& result, bool onlyFolds,
+Inspection inspectResult(const CavityTask& task, const CavityResult& result, LookFirst first,
                          ClearanceMemory& memory) {
   const Faces& cavity = result.cavity.faces;
   if (task.open != nullptr) return inspectShell(result.inner, cavity, task.surface, task.wall);
   if (task.outer) {
     const TriangleTree moved(result.outer, task.surface.faces(), TriangleTree::Order::Spatial);
-    return inspect(result.inner, cavity, moved, task.wall, true, onlyFolds);
+    return inspect(result.inner, cavity, moved, task.wall, true, first);
   }
-  return inspect(result.inner, cavity, task.surface, task.wall, false, onlyFolds, &memory);
+  return inspect(result.inner, cavity, task.surface, task.wall, false, first, &memory);
 }
 
 /// `freedom`: how much of the range between least and greatest offset may be used, 0…1; at 0 there
@@ -247,8 +249,8 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
   };
   std::optional<Attempt> withUnwanted;
   bool fillUnwanted = freedom > 0.0;
-  // Once the wall is kept, most rounds only smooth out folds.
-  bool onlyFolds = false;
+  bool mayTrim = true;
+  LookFirst first = LookFirst::ForAll;
   ClearanceMemory memory;
   std::unique_ptr<Goal> movedGoal;
   const Goal* goal = &task.goal;
@@ -267,9 +269,13 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
     }
 
     const Stopwatch optimization;
-    result.cavity = cavitySurface(cavityPositions(task, offsetSurfaces(model, coefficients).inner),
-                                  cavityFaces, corners, solid);
-    solid = result.cavity.solid;
+    // The caps of a cavity that did not fold will do where it ends as it did.
+    if (solid != result.cavity.solid || !result.inspection.crossing.empty()) {
+      result.cavity =
+          cavitySurface(cavityPositions(task, offsetSurfaces(model, coefficients).inner),
+                        cavityFaces, corners, solid);
+      solid = result.cavity.solid;
+    }
     if (closesOpening(task, solid)) {
       result.stopReason = "no room for a cavity at an opening";
       return result;
@@ -301,11 +307,15 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
       result.stopReason = "least offsets";
     }
     OffsetSurfaces surfaces = offsetSurfaces(model, coefficients);
-    if (round < kTrims &&
-        fillNarrowParts(task, surfaces, model.inner, offsetFaces(task, result.cavity.faces),
-                        fillUnwanted, solid)) {
-      result.secondsOptimization += optimization.seconds();
-      continue;
+    if (round < kTrims && mayTrim) {
+      const Eigen::Index vertices = result.cavity.faces.rows() / 2;
+      const Eigen::Index filled = fillNarrowParts(
+          task, surfaces, model.inner, offsetFaces(task, result.cavity.faces), fillUnwanted, solid);
+      mayTrim = static_cast<double>(filled) > kWorthTrimming * static_cast<double>(vertices);
+      if (filled > 0) {
+        result.secondsOptimization += optimization.seconds();
+        continue;
+      }
     }
     withUnwanted.reset();
     fillUnwanted = false;
@@ -316,8 +326,13 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
     if (task.outer) result.outer = task.deliverable(surfaces.outer);
     result.innerOffsets = std::move(surfaces.innerOffsets);
     result.outerOffsets = std::move(surfaces.outerOffsets);
-    result.inspection = inspectResult(task, result, onlyFolds, memory);
-    onlyFolds = result.inspection.thin.empty() && !result.inspection.crossing.empty();
+    result.inspection = inspectResult(task, result, first, memory);
+    // What was all that was wrong mostly is all that is wrong next time.
+    const bool isWithoutFolds =
+        result.inspection.crossing.empty() && result.inspection.outerCrossing.empty();
+    first = isWithoutFolds                   ? LookFirst::ForThinWalls
+            : result.inspection.thin.empty() ? LookFirst::ForFolds
+                                             : LookFirst::ForAll;
     result.secondsInspection += inspection.seconds();
     if (progress) progress(1.0 - 1.0 / (2.0 + round));
     if (result.inspection.isClean()) {

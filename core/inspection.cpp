@@ -27,19 +27,49 @@ std::vector<int> verticesOf(const Faces& faces,
   return vertices;
 }
 
+/// Adds what is not in the list yet, which stays ascending.
+void add(const std::vector<int>& more, std::vector<int>& list) {
+  list.insert(list.end(), more.begin(), more.end());
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+std::vector<int> thinnerThan(double wall, const Eigen::Ref<const Vector>& walls) {
+  std::vector<int> thin;
+  for (Eigen::Index v = 0; v < walls.size(); ++v) {
+    if (walls[v] < (1.0 - kWallTolerance) * wall) thin.push_back(static_cast<int>(v));
+  }
+  return thin;
+}
+
 } // namespace
 
 Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleTree& outer,
-                   double wall, bool outerMoved, bool foldsFirst, ClearanceMemory* memory) {
+                   double wall, bool outerMoved, LookFirst first, ClearanceMemory* memory) {
   Inspection inspection;
-  const std::vector<int> folded =
-      selfIntersectingFaces(inner, innerFaces, TriangleTree::Order::Spatial);
-  const std::vector<int> flat = facesWithoutArea(inner, innerFaces);
-  inspection.crossing = verticesOf(innerFaces, {&folded, &flat});
-  if (foldsFirst && !inspection.crossing.empty()) return inspection;
-
-  Clearance clearance = clearanceOf(inner, innerFaces, outer, wall, memory);
-  inspection.crossing = verticesOf(innerFaces, {&clearance.crossing, &folded, &flat});
+  const auto takeFolds = [&] {
+    const std::vector<int> folded =
+        selfIntersectingFaces(inner, innerFaces, TriangleTree::Order::Spatial);
+    const std::vector<int> flat = facesWithoutArea(inner, innerFaces);
+    add(verticesOf(innerFaces, {&folded, &flat}), inspection.crossing);
+  };
+  const auto takeWall = [&] {
+    Clearance clearance = clearanceOf(inner, innerFaces, outer, wall, memory);
+    add(verticesOf(innerFaces, {&clearance.crossing}), inspection.crossing);
+    inspection.wall = std::move(clearance.distance);
+    inspection.leastWall = clearance.least;
+    inspection.nearestFace = std::move(clearance.nearestFace);
+    inspection.thin = thinnerThan(wall, inspection.wall);
+  };
+  if (first == LookFirst::ForThinWalls) {
+    takeWall();
+    if (!inspection.thin.empty()) return inspection;
+    takeFolds();
+  } else {
+    takeFolds();
+    if (first == LookFirst::ForFolds && !inspection.crossing.empty()) return inspection;
+    takeWall();
+  }
   if (outerMoved) {
     const std::vector<int> outerFolds = selfIntersectingFaces(outer);
     inspection.outerCrossing = verticesOf(outer.faces(), {&outerFolds});
@@ -54,20 +84,8 @@ Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleT
     const bool outward =
         moments(inner.rowwise() - inner.row(components[c](0, 0)), components[c])[0] > 0.0;
     if (inside && outward && depths[c] == 0) continue;
-    inspection.crossing.insert(inspection.crossing.end(), components[c].data(),
-                               components[c].data() + components[c].size());
-  }
-  std::sort(inspection.crossing.begin(), inspection.crossing.end());
-  inspection.crossing.erase(std::unique(inspection.crossing.begin(), inspection.crossing.end()),
-                            inspection.crossing.end());
-
-  inspection.wall = std::move(clearance.distance);
-  inspection.leastWall = clearance.least;
-  inspection.nearestFace = std::move(clearance.nearestFace);
-  for (Eigen::Index v = 0; v < inspection.wall.size(); ++v) {
-    if (inspection.wall[v] < (1.0 - kWallTolerance) * wall) {
-      inspection.thin.push_back(static_cast<int>(v));
-    }
+    add(std::vector<int>(components[c].data(), components[c].data() + components[c].size()),
+        inspection.crossing);
   }
   return inspection;
 }
@@ -91,21 +109,15 @@ Inspection inspectShell(const Points& positions, const Faces& cavity, const Tria
       bad.insert(bad.end(), parts[c].data(), parts[c].data() + parts[c].size());
     }
   }
-  for (const int v : bad) inspection.crossing.push_back(v < n ? v : v - static_cast<int>(n));
-  std::sort(inspection.crossing.begin(), inspection.crossing.end());
-  inspection.crossing.erase(std::unique(inspection.crossing.begin(), inspection.crossing.end()),
-                            inspection.crossing.end());
+  for (int& v : bad) v = v < n ? v : v - static_cast<int>(n);
+  add(bad, inspection.crossing);
 
   Clearance clearance = clearanceOf(positions, withoutStrips(cavity, n), skin, wall);
   inspection.wall = std::move(clearance.distance);
   inspection.wall.tail(n).setZero();
   inspection.leastWall = clearance.least;
   inspection.nearestFace = std::move(clearance.nearestFace);
-  for (Eigen::Index v = 0; v < n; ++v) {
-    if (inspection.wall[v] < (1.0 - kWallTolerance) * wall) {
-      inspection.thin.push_back(static_cast<int>(v));
-    }
-  }
+  inspection.thin = thinnerThan(wall, inspection.wall.head(n));
   inspection.components = static_cast<int>(connectedComponents(positions.rows(), cavity).size());
   return inspection;
 }

@@ -27,14 +27,16 @@ struct Inspection {
   bool isClean() const { return crossing.empty() && outerCrossing.empty() && thin.empty(); }
 };
 
+/// What is looked for first; where it is found, that is told alone.
+enum class LookFirst { ForAll, ForFolds, ForThinWalls };
+
 /// Exact predicates for crossings and containment, double precision for distances: surfaces that
 /// are a wall apart do not cross.
 /// `inner`, `innerFaces`: the cavity, outward oriented as a body of its own. `wall`: wanted
-/// distance, same unit. `outerMoved`: whether the outer surface may cross itself. `foldsFirst`:
-/// where the cavity crosses itself, tell that alone and measure nothing. `memory`: null, or of
-/// inspections against the same outer surface.
+/// distance, same unit. `outerMoved`: whether the outer surface may cross itself. `memory`: null,
+/// or of inspections against the same outer surface.
 Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleTree& outer,
-                   double wall, bool outerMoved, bool foldsFirst = false,
+                   double wall, bool outerMoved, LookFirst first = LookFirst::ForAll,
                    ClearanceMemory* memory = nullptr);
 
 /// An inspection of the shell of an open surface (open_surface.h): skin, offset surface and strips
