@@ -109,9 +109,8 @@ CoarseSurface coarseSurface(const Workpiece& piece, const Coarseness& forCage,
         stages.secondsSkeleton = time.seconds();
       });
   stages.skeletonFailures = skeleton.failedComponents;
-  return {std::move(cage),          cageArea / cageArea.sum(), std::move(proxy),
-          std::move(interpolation), std::move(laplacian),      std::move(area),
-          std::move(skeleton),      std::move(basis)};
+  return {std::move(cage), cageArea / cageArea.sum(), std::move(proxy),    std::move(interpolation),
+          laplacian,       std::move(area),           std::move(skeleton), std::move(basis)};
 }
 
 /// The outer surface keeps the point that the body hangs from.
