@@ -55,14 +55,13 @@ class ParametersTest(HostTest):
         self.assertLess(stand["center_of_mass_after"][2], spin["center_of_mass_after"][2])
 
     def test_basis_k_more_functions_shape_finer_detail(self):
-        # A model that is hollowed everywhere, so that vertices correspond.
         _, (few, _) = self.top(basis_k=6)
         _, (many, _) = self.top(basis_k=60)
-        self.assertEqual(len(few), len(self.outer[0]))
-        self.assertEqual(len(many), len(self.outer[0]))
 
         def roughness(inner):
-            offset = np.linalg.norm(inner - self.outer[0], axis=1)
+            # A few vertices may be solid: not every one of the model has its own in the cavity.
+            ways = inner[np.newaxis] - self.outer[0][:, np.newaxis]
+            offset = np.linalg.norm(ways, axis=2).min(axis=1)
             return cotangent_energy(*self.outer, offset) / np.var(offset)
 
         self.assertGreater(roughness(many), 1.2 * roughness(few))
