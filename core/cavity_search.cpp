@@ -1,5 +1,6 @@
 #include "core/cavity_search.h"
 
+#include "core/coarse_to_fine.h"
 #include "core/graph.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
@@ -240,6 +241,9 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
   Vector coefficients = coefficientsFor(model, middle, outerStart);
   std::vector<int> thinRounds(static_cast<std::size_t>(task.vertices.rows()), 0);
 
+  // Later rounds start near their minima.
+  const bool mayStartCoarse = task.proxy != nullptr && !task.outer && task.open == nullptr &&
+                              task.weights.smoothness == 0.0;
   OptimizeOptions solver;
   CavityResult result;
   result.outer = task.surface.vertices();
@@ -282,10 +286,16 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
     }
     model.innerFaces = result.cavity.faces;
     if (freedom > 0.0) {
-      const auto problem = [&](const Vector& x) { return evaluate(model, *goal, task.weights, x); };
-      OptimizeResult best = minimize(problem, coefficients, solver);
+      const auto minimized = [&](const Vector& start) {
+        if (round == 0 && mayStartCoarse) {
+          return minimizeCoarseToFine(model, *task.proxy, *goal, task.weights, start, solver);
+        }
+        return minimize([&](const Vector& x) { return evaluate(model, *goal, task.weights, x); },
+                        start, solver);
+      };
+      OptimizeResult best = minimized(coefficients);
       if (round == 0 && isFarFromLimit(task, best)) {
-        OptimizeResult other = minimize(problem, towardsLimit(task, model, outerStart), solver);
+        OptimizeResult other = minimized(towardsLimit(task, model, outerStart));
         result.evaluations += other.evaluations;
         if (isBetter(other, best)) std::swap(best, other);
       }

@@ -81,16 +81,6 @@ CavityMoments momentsOf(const OffsetModel& model, const OffsetSurfaces& surfaces
   return {inner.moments, jacobian(model, std::move(inner.rates), surfaces.innerSlopes, -1.0)};
 }
 
-/// Terms 1–3 and 5, while the outer surface stays.
-Evaluation evaluateMoments(const OffsetModel& model, const Goal& goal, const Weights& weights,
-                           const CavityMoments& cavity) {
-  const double solidVolume = model.solidMoments[0];
-  return evaluateBody(
-      goal, weights, shellMoments(model.solidMoments, cavity.value, 1.0, model.fillDensity),
-      (model.fillDensity - 1.0) * cavity.jacobian, (solidVolume - cavity.value[0]) / solidVolume,
-      -cavity.jacobian.row(0).transpose() / solidVolume);
-}
-
 } // namespace
 
 OffsetSurfaces offsetSurfaces(const OffsetModel& model, const Vector& coefficients) {
@@ -114,6 +104,15 @@ CavityMoments cavityMoments(const OffsetModel& model, const Vector& coefficients
   return momentsOf(model, offsetSurfaces(model, coefficients), usesInertia);
 }
 
+Evaluation evaluateCavity(const OffsetModel& model, const Goal& goal, const Weights& weights,
+                          const CavityMoments& cavity) {
+  const double solidVolume = model.solidMoments[0];
+  return evaluateBody(
+      goal, weights, shellMoments(model.solidMoments, cavity.value, 1.0, model.fillDensity),
+      (model.fillDensity - 1.0) * cavity.jacobian, (solidVolume - cavity.value[0]) / solidVolume,
+      -cavity.jacobian.row(0).transpose() / solidVolume);
+}
+
 Evaluation evaluate(const OffsetModel& model, const Goal& goal, const Weights& weights,
                     const Vector& coefficients) {
   const Eigen::Index k = model.basis.functions.cols();
@@ -135,7 +134,7 @@ Evaluation evaluate(const OffsetModel& model, const Goal& goal, const Weights& w
                      massJacobian, (outer[0] - inner.value[0]) / solidVolume,
                      volumeGradient / solidVolume);
   } else {
-    e = evaluateMoments(model, goal, weights, inner);
+    e = evaluateCavity(model, goal, weights, inner);
   }
 
   // Term 4: Dirichlet energy δᵀLδ of the inner offsets.

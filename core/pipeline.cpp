@@ -216,7 +216,10 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   const SparseMatrix L =
       options.weights.smoothness > 0.0 ? cotanLaplacian(x, faces) : SparseMatrix();
   CavityTask task{surface, x, faces, field, coarse->basis, L, coarse->mass, *goal, options.weights};
-  if (!coarse->interpolation.isIdentity()) task.interpolation = &coarse->interpolation;
+  if (!coarse->interpolation.isIdentity()) {
+    task.interpolation = &coarse->interpolation;
+    task.proxy = &coarse->proxy;
+  }
   if (piece.open) task.open = &*piece.open;
   task.solidMoments = solidMoments;
   task.fillDensity = fillingSeenBy(options);

@@ -418,10 +418,10 @@ Proxy makeProxy(const Points& vertices, const Faces& faces, const Coarseness& wa
     if (isMuchLess(surface.size(), vertices)) {
       CoarseCopy copy = surface.copy();
       std::vector<int> vertexFor = surface.vertexFor(copy);
-      return {std::move(copy.mesh), std::move(vertexFor)};
+      return {std::move(copy.mesh), std::move(copy.vertexOf), std::move(vertexFor)};
     }
   }
-  return {{vertices, faces}, {}};
+  return {{vertices, faces}, {}, {}};
 }
 
 Interpolation interpolationFrom(const Proxy& proxy, const Points& vertices) {

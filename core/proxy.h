@@ -56,9 +56,9 @@ CoarseCopy coarseCopy(const Points& vertices, const Faces& faces, const Coarsene
 
 struct Proxy {
   TriangleMesh mesh; ///< a coarse copy
-  /// For every vertex of the surface the one of the proxy that it fell together with; empty where
-  /// the proxy is the surface itself.
-  std::vector<int> vertexFor;
+  /// For every vertex of the proxy the vertex of the surface that it is, and for every one of the
+  /// surface that of the proxy that it fell together with; empty where the proxy is the surface.
+  std::vector<int> vertexOf, vertexFor;
 };
 
 /// A coarse copy that carries functions.
