@@ -154,8 +154,10 @@ TEST_P(EveryGoal, ShowsBothCentresOfMassAndWhatTheyAreJudgedBy) {
   options.showAnswer = true;
   const Result result = optimizeMassProperties(model, options);
   ASSERT_TRUE(result.picture);
-  const auto [cutOpen, marks, name] = *result.picture;
-  EXPECT_EQ(name, GetParam().name);
+  const Picture& picture = *result.picture;
+  const ColouredMesh& cutOpen = picture.cutOpen;
+  const ColouredMesh& marks = picture.marks;
+  EXPECT_EQ(picture.marksName, GetParam().name);
 
   const Vec3 before = std::get<Vec3>(result.report.at("center_of_mass_before"));
   const Vec3 after = std::get<Vec3>(result.report.at("center_of_mass_after"));

@@ -419,12 +419,8 @@ TEST(Pipeline, GivesTheSameCavityWhicheverAxisIsUp) {
   for (const auto& [axis, up] : axes) {
     // Columns: where the model's x, y, z go. The one horizontal axis that follows `up` cyclically
     // is x for a positive axis; for a negative one it is y.
-    const Eigen::Index k = up.cwiseAbs().maxCoeff() == 1.0 ? [&] {
-      Eigen::Index i = 0;
-      up.cwiseAbs().maxCoeff(&i);
-      return i;
-    }()
-                                                           : 0;
+    Eigen::Index k = 0;
+    up.cwiseAbs().maxCoeff(&k);
     Mat3 turn;
     turn.col(2) = up;
     const Vec3 next = Vec3::Unit((k + 1) % 3);
