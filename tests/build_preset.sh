@@ -5,4 +5,4 @@ cd "$(dirname "$0")/.."
 preset=$1
 shift
 cmake --preset "$preset" >/dev/null
-exec nice cmake --build --preset "$preset" --target "$@" --parallel 1
+exec cmake --build --preset "$preset" --target "$@" --parallel 1
