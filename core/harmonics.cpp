@@ -32,9 +32,8 @@ public:
   void set_shift(double sigma) {
     if (sigma == shift_) return;
     shift_ = sigma;
-    SparseMatrix shifted = L_;
-    shifted.diagonal() -= sigma * mass_;
-    solver_.compute(shifted);
+    solver_.analyzePattern(L_);
+    solver_.factorize(shifted(sigma));
     if (solver_.info() != Eigen::Success) {
       throw std::runtime_error("the Laplacian of this mesh cannot be factorised: use Remeshing: "
                                "Isotropic Explicit Remeshing, then run again");
@@ -48,10 +47,29 @@ public:
     out = outside(rootMass_.cwiseProduct(solver_.solve(rhs)));
   }
 
+  /// Whether so many eigenvalues, counted with their multiplicity, lie below `value`: as many as
+  /// pivots of L − value·M are negative, by Sylvester's law of inertia. False, too, where a pivot
+  /// is too small for its sign to be known. The shift is to be set anew before the next solve.
+  bool hasBelow(Eigen::Index count, double value) {
+    constexpr double kKnownSign = 1e-10;
+    shift_ = value;
+    solver_.factorize(shifted(value));
+    if (solver_.info() != Eigen::Success) return false;
+    const Vector pivots = solver_.vectorD();
+    return pivots.cwiseAbs().minCoeff() > kKnownSign * pivots.cwiseAbs().maxCoeff() &&
+           (pivots.array() < 0.0).count() == count;
+  }
+
   /// From now on works in the complement of the orthonormal columns of `found` (n×m).
   void deflate(const Matrix& found) { found_ = found; }
 
 private:
+  SparseMatrix shifted(double sigma) const {
+    SparseMatrix result = L_;
+    result.diagonal() -= sigma * mass_;
+    return result;
+  }
+
   Vector outside(const Vector& x) const {
     return found_.cols() == 0 ? x : Vector(x - found_ * (found_.transpose() * x));
   }
@@ -115,6 +133,9 @@ Modes merged(const Modes& a, const Modes& b, int k) {
 Modes lowestModesWithCopies(const SparseMatrix& L, const Vector& mass, int k, double shift) {
   ShiftInvertedLaplacian op(L, mass);
   Modes modes = lowestModes(op, k, shift);
+  constexpr double kBelowLast = 1.0 - 1e-6;
+  const double last = kBelowLast * modes.values[k - 1];
+  if (op.hasBelow((modes.values.array() < last).count(), last)) return modes;
   for (int round = 0; round < k; ++round) {
     op.deflate(modes.vectors);
     const Modes next = lowestModes(op, 1, shift);
