@@ -35,7 +35,7 @@ public:
   RegionSampler(const TriangleTree& surface, double wall, double edge)
       : surface_(surface), wall_(wall), edge_(edge) {}
 
-  void add(const Vec3& centre) { visit(centre, kTop, kNone, Side::Unknown, {}); }
+  void add(const Vec3& centre) { visit(centre, kTop, kNone, {}); }
 
   static constexpr int kTop = 4;
   static double topEdge(double edge) { return edge * (1 << (kTop - 1)); }
@@ -73,7 +73,6 @@ public:
   }
 
 private:
-  enum class Side { Unknown, Inside, Outside };
   struct Part {
     Vec3 centre;
     double depth; ///< behind the surface, negative outside
@@ -82,43 +81,80 @@ private:
     int cell;     ///< number of the border cell
   };
 
+  /// The surface does not come into it, so that all of it is on one side.
+  struct Ball {
+    Vec3 centre;
+    double radius;
+    bool isInside;
+  };
+
+  /// The largest ball around a point that is part of a known one; of no radius outside of all.
+  Ball knownAround(const Vec3& centre) const {
+    Ball best{centre, 0.0, false};
+    for (const Ball& ball : known_) {
+      const double squared = (centre - ball.centre).squaredNorm();
+      if (squared >= ball.radius * ball.radius) continue;
+      const double radius = ball.radius - std::sqrt(squared);
+      if (radius > best.radius) best = {centre, radius, ball.isInside};
+    }
+    return best;
+  }
+
   /// `near`: a point of the surface, if any is known.
-  void visit(const Vec3& centre, int level, int cell, Side side, const TriangleTree::Hit& near) {
+  void visit(const Vec3& centre, int level, int cell, const TriangleTree::Hit& near) {
     const double size = edge_ * std::ldexp(1.0, level - 1);
     const double half = 0.5 * std::sqrt(3.0) * size;
     if (near.face >= 0 && (centre - near.point).norm() <= wall_ - half) return;
+    Ball ball = knownAround(centre);
+    const bool isSideKnown = ball.radius > 0.0;
+    // So far outside no cube has anything to be hollow, and the middle of a border cell's part no
+    // plane that would leave it any.
+    const double nothing = level > 0 ? half : half - wall_;
+    if (isSideKnown && !ball.isInside && ball.radius >= nothing) return;
     // Farther away the surface does not matter.
     const double far =
-        side == Side::Inside ? wall_ + half : std::numeric_limits<double>::infinity();
-    const TriangleTree::Hit nearest = surface_.nearest(centre, far * far, near.face);
+        isSideKnown && ball.isInside ? wall_ + half : std::numeric_limits<double>::infinity();
+    TriangleTree::Hit nearest;
+    if (ball.radius < far) nearest = surface_.nearest(centre, far * far, near.face);
     if (nearest.face < 0) {
+      known_.push_back({centre, far, true});
       parts_.push_back({centre, far, Vec3::UnitX(), level, cell});
       return;
     }
-    const double distance = std::sqrt(nearest.squaredDistance);
-    if (distance <= wall_ - half) return;
-    if (side == Side::Unknown && (distance >= half || level == 0)) {
-      side = isInside(centre, nearest, surface_) ? Side::Inside : Side::Outside;
+    ball.radius = std::sqrt(nearest.squaredDistance);
+    if (ball.radius <= wall_ - half) return;
+    // Asked only where it tells the side of all parts: their middles are half as far as corners.
+    if (isSideKnown || ball.radius > 0.5 * half || level == 0) {
+      if (!isSideKnown) ball.isInside = isInside(centre, nearest, surface_);
+      known_.push_back(ball);
+      if (!ball.isInside && ball.radius >= nothing) return;
     }
-    const double sign = side == Side::Inside ? 1.0 : -1.0;
-    if (level > 0 && side == Side::Outside) return;
-    if (level == 0 || distance >= wall_ + half) {
-      const Vec3 away = (centre - nearest.point) / std::max(distance, 1e-300);
-      parts_.push_back({centre, sign * distance, sign * away, level, cell});
+    if (level == 0 || (ball.isInside && ball.radius >= wall_ + half)) {
+      const double sign = ball.isInside ? 1.0 : -1.0;
+      const Vec3 away = (centre - nearest.point) / std::max(ball.radius, 1e-300);
+      parts_.push_back({centre, sign * ball.radius, sign * away, level, cell});
       return;
     }
     if (level == 1) cell = borderCells_++;
-    for (int corner = 0; corner < 8; ++corner) {
+    const std::size_t known = known_.size();
+    // The ball around the part that is farthest from the surface spares most of the others.
+    const Vec3 away = centre - nearest.point;
+    const int farthest =
+        (away.x() > 0.0 ? 1 : 0) + (away.y() > 0.0 ? 2 : 0) + (away.z() > 0.0 ? 4 : 0);
+    for (int i = 0; i < 8; ++i) {
+      const int corner = i ^ farthest;
       const Vec3 step((corner & 1) != 0 ? 0.25 : -0.25, (corner & 2) != 0 ? 0.25 : -0.25,
                       (corner & 4) != 0 ? 0.25 : -0.25);
-      visit(centre + size * step, level - 1, cell, side, nearest);
+      visit(centre + size * step, level - 1, cell, nearest);
     }
+    known_.resize(known);
   }
 
   const TriangleTree& surface_;
   double wall_;
   double edge_;
   std::vector<Part> parts_;
+  std::vector<Ball> known_; ///< around the cubes that the present one is part of, and their parts
   int borderCells_ = 0;
 };
 
