@@ -184,7 +184,16 @@ void inParallel(const std::function<void()>& first, const std::function<void()>&
     return;
   }
   const ThreadTeam team;
-  if (present->share(second, first, 1) == 0) first();
+  std::exception_ptr ofSecond;
+  const auto keepingFailure = [&] {
+    try {
+      second();
+    } catch (...) {
+      ofSecond = std::current_exception();
+    }
+  };
+  if (present->share(keepingFailure, first, 1) == 0) first();
+  if (ofSecond) std::rethrow_exception(ofSecond);
 }
 
 } // namespace massprops

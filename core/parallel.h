@@ -50,7 +50,7 @@ void forChunks(Eigen::Index count, Eigen::Index length,
                const std::function<void(const Chunk&)>& body);
 
 /// Both: the second on the calling thread, the first on another one, or on the calling one later
-/// when no other is free.
+/// when no other is free. Where both fail, the first one's exception is thrown.
 void inParallel(const std::function<void()>& first, const std::function<void()>& second);
 
 } // namespace massprops

@@ -54,9 +54,10 @@ Schedule scheduleFor(Eigen::Index vertexCount, int basisSize, bool isCopied) {
   const auto cage = static_cast<double>(carrying(basisSize, kCage).most);
   const auto proxy = static_cast<double>(carrying(basisSize, kProxy).most);
   const double moving = isCopied ? std::min(n, 0.8 * cage) : n;
-  const double check = 1.3e-6 * n;
+  const double check = 7e-7 * n;
+  const double crossings = 1.2e-6 * n; // on one core, beside copies and skeleton
   const double copy = isCopied ? 7e-7 * n + 1.2e-6 * std::min(n, cage) : 0.0;
-  const double skeleton = 2.7e-5 * std::min(n, proxy) + 1e-7 * n;
+  const double skeleton = std::max(2.7e-5 * std::min(n, proxy) + 1e-7 * n, crossings - copy);
   const double directions = 2.3e-6 * moving;
   const double search = 1.25e-5 * moving + 6e-7 * n;
   const double total = check + copy + skeleton + directions + search;
@@ -161,7 +162,8 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   Stages stages;
 
   tell(0, "Checking the model");
-  const Solid solid = makeSolid(model, options.openSurface, rotationToUp(options.upAxis));
+  const Solid solid =
+      makeSolid(model, options.openSurface, rotationToUp(options.upAxis), CrossingCheck::Later);
   requireSensible(options, solid.vertices().rows(), solid.diagonal());
   const Workpiece piece = makeWorkpiece(solid, options);
   if (piece.open) requireSensibleForShell(options);
@@ -178,9 +180,12 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   const Coarseness whole{n, n, 0.0};
   std::optional<Limit> limit;
   std::optional<CoarseSurface> coarse;
-  // The limit needs no copies: both cores work.
+  // Neither the check for crossings nor the limit needs copies: both cores work.
   inParallel(
       [&] {
+        const Stopwatch checking;
+        requireNoCrossings(solid);
+        stages.secondsCheck += checking.seconds();
         if (options.outerUpperBound > 0.0 || piece.open) return;
         const Stopwatch time;
         const AdmissibleCells cells = admissibleCells(surface, piece.wall);

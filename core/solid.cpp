@@ -106,12 +106,12 @@ std::vector<int> orderInSpace(const Points& vertices, const Faces& faces, const 
 }
 
 /// `skinFaces`: those before the lids.
-void requireNoSelfIntersection(const TriangleMesh& mesh, const std::vector<int>& spatialFaceOrder,
-                               Eigen::Index skinFaces) {
-  const std::vector<int> faces = selfIntersectingFaces(TriangleTree(
-      mesh.vertices, mesh.faces, spatialFaceOrder, TriangleTree::Queries::NoDistances));
-  const std::size_t crossing = faces.size();
-  if (crossing > 0 && faces.back() >= skinFaces) {
+void requireNoSelfIntersection(const Points& vertices, const Faces& faces,
+                               const std::vector<int>& spatialFaceOrder, Eigen::Index skinFaces) {
+  const std::vector<int> crossingFaces = selfIntersectingFaces(
+      TriangleTree(vertices, faces, spatialFaceOrder, TriangleTree::Queries::NoDistances));
+  const std::size_t crossing = crossingFaces.size();
+  if (crossing > 0 && crossingFaces.back() >= skinFaces) {
     throw InvalidInput(
         "A lid that closes an opening of the surface, which open_surface needs for "
         "its own reckoning, crosses the surface: close the opening with Remeshing > "
@@ -201,7 +201,8 @@ Faces stacked(const std::vector<Faces>& parts) {
 
 } // namespace
 
-Solid makeSolid(const TriangleMesh& input, bool closeOpenings, const Mat3& rotation) {
+Solid makeSolid(const TriangleMesh& input, bool closeOpenings, const Mat3& rotation,
+                CrossingCheck check) {
   requireFiniteTriangles(input);
   RepairedMesh repaired = mergedAndCompacted(input);
   if (repaired.mesh.faces.rows() == 0) {
@@ -242,8 +243,12 @@ Solid makeSolid(const TriangleMesh& input, bool closeOpenings, const Mat3& rotat
                          "is a solid body.");
     }
   }
-  requireNoSelfIntersection(mesh, solid.spatialFaceOrder_,
-                            boundary > 0 ? skinFaces : mesh.faces.rows());
+  // Which component is inside of which one is known only where they do not cross.
+  solid.mayCross_ = check == CrossingCheck::Later && boundary == 0 && components.size() == 1;
+  if (!solid.mayCross_) {
+    requireNoSelfIntersection(mesh.vertices, mesh.faces, solid.spatialFaceOrder_,
+                              boundary > 0 ? skinFaces : mesh.faces.rows());
+  }
   const std::vector<int> depths = nestingDepths(mesh.vertices, components);
   std::vector<Faces> bodies;
   std::vector<Faces> cavities;
@@ -275,6 +280,12 @@ Solid makeSolid(const TriangleMesh& input, bool closeOpenings, const Mat3& rotat
   }
   solid.cavities_ = submesh(mesh.vertices, stacked(cavities)).mesh;
   return solid;
+}
+
+void requireNoCrossings(const Solid& solid) {
+  if (!solid.mayCross_) return;
+  requireNoSelfIntersection(solid.vertices(), solid.faces(), solid.spatialFaceOrder_,
+                            solid.faces().rows());
 }
 
 } // namespace massprops

@@ -8,9 +8,13 @@
 
 namespace massprops {
 
+/// Looking for crossings is most of the work of `makeSolid`. `Later`: a single closed surface is
+/// left to `requireNoCrossings`, which may run beside the first stages that use the solid.
+enum class CrossingCheck { Now, Later };
+
 /// One or more disjoint bodies, each bounded by a closed 2-manifold of its own with triangles
-/// counter-clockwise seen from outside; no crossings, every vertex used, positive volume. Only
-/// `makeSolid` makes one.
+/// counter-clockwise seen from outside; no crossings (but see `CrossingCheck`), every vertex used,
+/// positive volume. Only `makeSolid` makes one.
 class Solid {
 public:
   const Points& vertices() const { return mesh_.vertices; }
@@ -27,13 +31,16 @@ public:
   const std::vector<int>& spatialFaceOrder() const { return spatialFaceOrder_; }
 
 private:
-  friend Solid makeSolid(const TriangleMesh& input, bool closeOpenings, const Mat3& rotation);
+  friend Solid makeSolid(const TriangleMesh& input, bool closeOpenings, const Mat3& rotation,
+                         CrossingCheck check);
+  friend void requireNoCrossings(const Solid& solid);
   TriangleMesh mesh_;
   TriangleMesh cavities_;
   double diagonal_ = 0.0;
   Repairs repairs_;
   std::vector<char> isLid_;
   std::vector<int> spatialFaceOrder_;
+  bool mayCross_ = false;
 };
 
 /// Mends what `repair.h` mends, turns components round that face the wrong way throughout, and sets
@@ -42,6 +49,10 @@ private:
 /// `rotation`: of the frame in which `spatialFaceOrder` is the same for a model that is turned.
 /// \throw InvalidInput with the number of defects and the MeshLab filter that mends them
 Solid makeSolid(const TriangleMesh& input, bool closeOpenings = false,
-                const Mat3& rotation = Mat3::Identity());
+                const Mat3& rotation = Mat3::Identity(), CrossingCheck check = CrossingCheck::Now);
+
+/// Does what `makeSolid` has left for later, if anything.
+/// \throw InvalidInput as `makeSolid` would have
+void requireNoCrossings(const Solid& solid);
 
 } // namespace massprops

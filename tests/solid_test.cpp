@@ -320,6 +320,32 @@ TEST(MakeSolid, RefusesASurfaceThatCrossesItself) {
                 {"crosses itself", "Select Self Intersecting Faces", "Mesh Boolean: Union"});
 }
 
+TEST(MakeSolid, LeavesTheCrossingsOfASingleClosedSurfaceForLaterOnRequest) {
+  const auto refuses = [](const auto& step) {
+    try {
+      step();
+    } catch (const InvalidInput& e) {
+      return std::string(e.what()).find("crosses itself") != std::string::npos;
+    }
+    return false;
+  };
+  const auto solidLater = [](const TriangleMesh& mesh) {
+    return makeSolid(mesh, false, Mat3::Identity(), CrossingCheck::Later);
+  };
+  TriangleMesh crossing = box({1, 1, 1}, 4);
+  for (Eigen::Index v = 0; v < crossing.vertices.rows(); ++v) {
+    if (crossing.vertices.row(v) == Eigen::RowVector3d(0, 0, 0.5))
+      crossing.vertices.row(v) << 0.8, 0.1, 0;
+  }
+  EXPECT_TRUE(refuses([&] { makeSolid(crossing); }));
+  const Solid unchecked = solidLater(crossing);
+  EXPECT_TRUE(refuses([&] { requireNoCrossings(unchecked); }));
+  EXPECT_NO_THROW(requireNoCrossings(solidLater(box({1, 1, 1}, 4))));
+  // Several bodies cannot wait: which one is inside of which has to be known.
+  const TriangleMesh two = joined(blob(3), transformed(blob(3), Mat3::Identity(), {0.9, 0.1, 0}));
+  EXPECT_TRUE(refuses([&] { solidLater(two); }));
+}
+
 TEST(MakeSolid, RefusesBodiesThatLieExactlyOnEachOther) {
   expectRefusal(joined(blob(3), blob(3)), {"crosses itself"});
 }
