@@ -29,6 +29,10 @@ void waitAwake(const Condition& isReady) {
   while (!isReady() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
 }
 
+/// What a thread does until its helpers have ended: nothing, for that is soon, or it takes part in
+/// other loops, which may end later.
+enum class Waiting { Idle, Helping };
+
 /// What helpers call, up to `wanted` times together.
 struct Task {
   const std::function<void()>& run;
@@ -59,7 +63,7 @@ public:
       const std::lock_guard lock(mutex_);
       isOver_ = true;
     }
-    called_.notify_all();
+    changed_.notify_all();
     for (std::thread& helper : helpers_) helper.join();
   }
   Crew(const Crew&) = delete;
@@ -67,7 +71,8 @@ public:
 
   /// Calls `own`, while helpers call `others` up to `wanted` times; ends when all have ended,
   /// whatever they throw. Returns how often helpers did.
-  int share(const std::function<void()>& own, const std::function<void()>& others, int wanted) {
+  int share(const std::function<void()>& own, const std::function<void()>& others, int wanted,
+            Waiting waiting) {
     const int helpers = std::min(wanted, static_cast<int>(helpers_.size()));
     Task task{others, helpers};
     if (helpers > 0) {
@@ -75,7 +80,7 @@ public:
       tasks_.push_back(&task);
       ++open_;
     }
-    called_.notify_all();
+    changed_.notify_all();
     std::exception_ptr failure;
     try {
       own();
@@ -86,9 +91,15 @@ public:
       const std::lock_guard lock(mutex_);
       close(task);
     }
-    waitAwake([&] { return task.helping == 0; });
-    std::unique_lock lock(mutex_);
-    done_.wait(lock, [&] { return task.helping == 0; });
+    const auto isOver = [&] { return task.helping == 0; };
+    if (waiting == Waiting::Helping) {
+      while (helpUntil(isOver)) {
+      }
+    } else {
+      waitAwake(isOver);
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, isOver);
+    }
     if (failure || task.failure) std::rethrow_exception(failure ? failure : task.failure);
     return helpers - task.wanted;
   }
@@ -102,32 +113,38 @@ private:
     --open_;
   }
 
+  /// Waits for a task and helps with it, or for the end; returns whether it was a task.
+  template <class IsOver>
+  bool helpUntil(const IsOver& isOver) {
+    waitAwake([&] { return isOver() || open_ > 0; });
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return isOver() || !tasks_.empty(); });
+    if (isOver()) return false;
+    Task& task = *tasks_.front();
+    ++task.helping;
+    if (--task.wanted == 0) close(task);
+    lock.unlock();
+    std::exception_ptr failure;
+    try {
+      task.run();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    lock.lock();
+    if (failure) task.failure = failure;
+    --task.helping;
+    changed_.notify_all();
+    return true;
+  }
+
   void help() {
     present = this; // loops within loops
-    while (true) {
-      waitAwake([&] { return open_ > 0 || isOver_; });
-      std::unique_lock lock(mutex_);
-      called_.wait(lock, [&] { return !tasks_.empty() || isOver_; });
-      if (isOver_) return;
-      Task& task = *tasks_.front();
-      ++task.helping;
-      if (--task.wanted == 0) close(task);
-      lock.unlock();
-      std::exception_ptr failure;
-      try {
-        task.run();
-      } catch (...) {
-        failure = std::current_exception();
-      }
-      lock.lock();
-      if (failure) task.failure = failure;
-      --task.helping;
-      done_.notify_all();
+    while (helpUntil([&] { return isOver_.load(); })) {
     }
   }
 
   std::mutex mutex_;
-  std::condition_variable called_, done_;
+  std::condition_variable changed_;
   std::vector<Task*> tasks_;  ///< that want helpers
   std::atomic<int> open_ = 0; ///< as many
   std::atomic<bool> isOver_ = false;
@@ -174,7 +191,7 @@ void forChunks(Eigen::Index count, Eigen::Index length,
   };
   std::atomic<int> helpers = 0;
   const ThreadTeam team;
-  present->share([&] { work(0); }, [&] { work(++helpers); }, workers - 1);
+  present->share([&] { work(0); }, [&] { work(++helpers); }, workers - 1, Waiting::Idle);
 }
 
 void inParallel(const std::function<void()>& first, const std::function<void()>& second) {
@@ -192,7 +209,7 @@ void inParallel(const std::function<void()>& first, const std::function<void()>&
       ofSecond = std::current_exception();
     }
   };
-  if (present->share(keepingFailure, first, 1) == 0) first();
+  if (present->share(keepingFailure, first, 1, Waiting::Helping) == 0) first();
   if (ofSecond) std::rethrow_exception(ofSecond);
 }
 

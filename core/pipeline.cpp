@@ -55,9 +55,8 @@ Schedule scheduleFor(Eigen::Index vertexCount, int basisSize, bool isCopied) {
   const auto proxy = static_cast<double>(carrying(basisSize, kProxy).most);
   const double moving = isCopied ? std::min(n, 0.8 * cage) : n;
   const double check = 7e-7 * n;
-  const double crossings = 1.2e-6 * n; // on one core, beside copies and skeleton
   const double copy = isCopied ? 7e-7 * n + 1.2e-6 * std::min(n, cage) : 0.0;
-  const double skeleton = std::max(2.7e-5 * std::min(n, proxy) + 1e-7 * n, crossings - copy);
+  const double skeleton = 2.7e-5 * std::min(n, proxy) + 6e-7 * n;
   const double directions = 2.3e-6 * moving;
   const double search = 1.25e-5 * moving + 6e-7 * n;
   const double total = check + copy + skeleton + directions + search;
@@ -80,9 +79,11 @@ struct CoarseSurface {
   HarmonicBasis basis;
 };
 
+/// `beside`: work for the core that the skeleton leaves free.
 CoarseSurface coarseSurface(const Workpiece& piece, const Coarseness& forCage,
                             const Coarseness& forProxy, int basisSize,
-                            const std::function<void()>& tellCopied, Stages& stages) {
+                            const std::function<void()>& tellCopied,
+                            const std::function<void()>& beside, Stages& stages) {
   const Stopwatch copying;
   CoarseCopy cage = coarseCopy(piece.vertices, piece.faces, forCage);
   Proxy proxy = makeProxy(cage.mesh.vertices, cage.mesh.faces, forProxy);
@@ -103,6 +104,7 @@ CoarseSurface coarseSurface(const Workpiece& piece, const Coarseness& forCage,
         basis = harmonicBasis(proxy.mesh.vertices, proxy.mesh.faces, laplacian, area / area.sum(),
                               basisSize);
         stages.secondsBasis = time.seconds();
+        beside();
       },
       [&] {
         const Stopwatch time;
@@ -180,27 +182,34 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   const Coarseness whole{n, n, 0.0};
   std::optional<Limit> limit;
   std::optional<CoarseSurface> coarse;
-  // Neither the check for crossings nor the limit needs copies: both cores work.
-  inParallel(
-      [&] {
-        const Stopwatch checking;
-        requireNoCrossings(solid);
-        stages.secondsCheck += checking.seconds();
-        if (options.outerUpperBound > 0.0 || piece.open) return;
-        const Stopwatch time;
-        const AdmissibleCells cells = admissibleCells(surface, piece.wall);
-        if (cells.rows() == 0) return;
-        limit = limitOf(*goal, options.weights, solidMoments, fillingSeenBy(options), cells);
-        stages.secondsLimit = time.seconds();
-      },
-      [&] {
-        tell(schedule.copy, "Coarse copies");
-        coarse.emplace(coarseSurface(
-            piece, needsAll ? whole : carrying(options.basisSize, kCage),
-            options.fullResolution ? whole : carrying(options.basisSize, kProxy), options.basisSize,
-            [&] { tell(schedule.skeleton, "Mean curvature skeleton and harmonic basis"); },
-            stages));
-      });
+  const auto requireNoCrossingsOfSolid = [&] {
+    const Stopwatch time;
+    requireNoCrossings(solid);
+    stages.secondsCheck += time.seconds();
+  };
+  const auto findLimit = [&] {
+    if (options.outerUpperBound > 0.0 || piece.open) return;
+    const Stopwatch time;
+    const AdmissibleCells cells = admissibleCells(surface, piece.wall);
+    if (cells.rows() == 0) return;
+    limit = limitOf(*goal, options.weights, solidMoments, fillingSeenBy(options), cells);
+    stages.secondsLimit = time.seconds();
+  };
+  const auto makeCoarseSurface = [&] {
+    tell(schedule.copy, "Coarse copies");
+    coarse.emplace(coarseSurface(
+        piece, needsAll ? whole : carrying(options.basisSize, kCage),
+        options.fullResolution ? whole : carrying(options.basisSize, kProxy), options.basisSize,
+        [&] { tell(schedule.skeleton, "Mean curvature skeleton and harmonic basis"); },
+        requireNoCrossingsOfSolid, stages));
+  };
+  try {
+    // The limit needs no copies: both cores work.
+    inParallel(findLimit, makeCoarseSurface);
+  } catch (const std::exception&) {
+    requireNoCrossings(solid); // whatever else they lead to
+    throw;
+  }
   const bool isCopy = coarse->cage.mesh.vertices.rows() < n;
   const Points& x = coarse->cage.mesh.vertices;
   const Faces& faces = coarse->cage.mesh.faces;
