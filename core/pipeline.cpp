@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <stdexcept>
 
 namespace massprops {
 namespace {
@@ -182,7 +183,7 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   const Coarseness whole{n, n, 0.0};
   std::optional<Limit> limit;
   std::optional<CoarseSurface> coarse;
-  const auto requireNoCrossingsOfSolid = [&] {
+  const auto checkCrossings = [&] {
     const Stopwatch time;
     requireNoCrossings(solid);
     stages.secondsCheck += time.seconds();
@@ -201,13 +202,16 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
         piece, needsAll ? whole : carrying(options.basisSize, kCage),
         options.fullResolution ? whole : carrying(options.basisSize, kProxy), options.basisSize,
         [&] { tell(schedule.skeleton, "Mean curvature skeleton and harmonic basis"); },
-        requireNoCrossingsOfSolid, stages));
+        checkCrossings, stages));
   };
   try {
     // The limit needs no copies: both cores work.
     inParallel(findLimit, makeCoarseSurface);
-  } catch (const std::exception&) {
-    requireNoCrossings(solid); // whatever else they lead to
+  } catch (const InvalidInput&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    // A stage that fails may do so for crossings that nobody has looked for yet.
+    requireNoCrossings(solid);
     throw;
   }
   const bool isCopy = coarse->cage.mesh.vertices.rows() < n;
