@@ -2,14 +2,14 @@
 // gradients, the harmonic basis, the offset directions and the inspection of the result.
 //
 // usage: micro [Google Benchmark's options]
-#include "core/harmonics.h"
-#include "core/inspection.h"
-#include "core/laplacian.h"
-#include "core/moments.h"
-#include "core/offset_field.h"
-#include "core/parallel.h"
-#include "core/proxy.h"
-#include "core/workpiece.h"
+#include "core/base/parallel.h"
+#include "core/check/inspection.h"
+#include "core/mesh/decimation.h"
+#include "core/model/posed_model.h"
+#include "core/physics/moments.h"
+#include "core/reduced/harmonics.h"
+#include "core/reduced/laplacian.h"
+#include "core/reduced/offset_field.h"
 #include "organic_model.h"
 
 #include <benchmark/benchmark.h>
@@ -23,7 +23,7 @@ using namespace massprops;
 
 /// An animal in the working frame, with a cavity that keeps a wall of 1 % of the diagonal.
 struct Animal {
-  Workpiece piece;
+  PosedModel posed;
   Points directions;
   Points inner;
 };
@@ -33,19 +33,19 @@ const Animal& animal(Eigen::Index size) {
   const auto at = made.find(size);
   if (at != made.end()) return at->second;
   setThreadCount(1);
-  Animal a{makeWorkpiece(makeSolid(benchmarks::organicModel(size)), {}), {}, {}};
-  const Points& x = a.piece.vertices;
+  Animal a{makePosedModel(makeSolid(benchmarks::organicModel(size)), {}), {}, {}};
+  const Points& x = a.posed.vertices;
   const Points middle = Points::Zero(x.rows(), 3).rowwise() + x.colwise().mean();
-  const OffsetField field = offsetField(x, a.piece.faces, middle);
+  const OffsetField field = offsetField(x, a.posed.faces, middle);
   a.directions = field.directions;
-  const Vector offsets = (2.0 * a.piece.wall * field.clearance.cwiseMax(0.2).cwiseInverse())
+  const Vector offsets = (2.0 * a.posed.wall * field.clearance.cwiseMax(0.2).cwiseInverse())
                              .cwiseMin(0.5 * field.reach);
   a.inner = x - offsets.asDiagonal() * field.directions;
   return made.emplace(size, std::move(a)).first->second;
 }
 
 void countTriangles(benchmark::State& state, const Animal& a) {
-  state.counters["a_triangle"] = benchmark::Counter(static_cast<double>(a.piece.faces.rows()),
+  state.counters["a_triangle"] = benchmark::Counter(static_cast<double>(a.posed.faces.rows()),
                                                     benchmark::Counter::kIsIterationInvariantRate |
                                                         benchmark::Counter::kInvert);
 }
@@ -53,7 +53,7 @@ void countTriangles(benchmark::State& state, const Animal& a) {
 void momentsWithGradients(benchmark::State& state) {
   const Animal& a = animal(state.range(0));
   for ([[maybe_unused]] auto _ : state) {
-    benchmark::DoNotOptimize(momentsWithRates(a.inner, a.piece.faces, a.directions));
+    benchmark::DoNotOptimize(momentsWithRates(a.inner, a.posed.faces, a.directions));
   }
   countTriangles(state, a);
 }
@@ -61,7 +61,7 @@ void momentsWithGradients(benchmark::State& state) {
 void basis(benchmark::State& state) {
   const Animal& a = animal(100000);
   const Proxy proxy =
-      makeProxy(a.piece.vertices, a.piece.faces, {state.range(0), state.range(0), 0.0});
+      makeProxy(a.posed.vertices, a.posed.faces, {state.range(0), state.range(0), 0.0});
   const SparseMatrix L = cotanLaplacian(proxy.mesh.vertices, proxy.mesh.faces);
   const Vector area = vertexLumpedMass(proxy.mesh.vertices, proxy.mesh.faces);
   constexpr int kBasisSize = 36;
@@ -74,9 +74,9 @@ void basis(benchmark::State& state) {
 void directionField(benchmark::State& state) {
   const Animal& a = animal(state.range(0));
   const Points middle =
-      Points::Zero(a.piece.vertices.rows(), 3).rowwise() + a.piece.vertices.colwise().mean();
+      Points::Zero(a.posed.vertices.rows(), 3).rowwise() + a.posed.vertices.colwise().mean();
   for ([[maybe_unused]] auto _ : state) {
-    benchmark::DoNotOptimize(offsetField(a.piece.vertices, a.piece.faces, middle));
+    benchmark::DoNotOptimize(offsetField(a.posed.vertices, a.posed.faces, middle));
   }
   countTriangles(state, a);
 }
@@ -84,8 +84,8 @@ void directionField(benchmark::State& state) {
 void checker(benchmark::State& state) {
   const Animal& a = animal(state.range(0));
   for ([[maybe_unused]] auto _ : state) {
-    const TriangleTree surface(a.piece.vertices, a.piece.faces, TriangleTree::Order::Spatial);
-    benchmark::DoNotOptimize(inspect(a.inner, a.piece.faces, surface, a.piece.wall, false));
+    const TriangleTree surface(a.posed.vertices, a.posed.faces, TriangleTree::Order::Spatial);
+    benchmark::DoNotOptimize(inspect(a.inner, a.posed.faces, surface, a.posed.wall, false));
   }
   countTriangles(state, a);
 }

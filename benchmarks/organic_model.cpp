@@ -1,7 +1,7 @@
 #include "organic_model.h"
 
-#include "core/half_edges.h"
-#include "core/parallel.h"
+#include "core/base/parallel.h"
+#include "core/mesh/connectivity.h"
 #include "property/mesher.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // A leaning animal of any resolution, for measurements.
 #pragma once
 
-#include "core/types.h"
+#include "core/base/types.h"
 
 namespace massprops::benchmarks {
 

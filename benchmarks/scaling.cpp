@@ -4,13 +4,13 @@
 //
 // usage: scaling [all]   `all` measures the skeletonisation of the largest meshes, too: minutes, 5
 // GB
-#include "core/parallel.h"
+#include "core/base/parallel.h"
+#include "core/base/stopwatch.h"
+#include "core/mesh/decimation.h"
 #include "core/pipeline.h"
-#include "core/proxy.h"
-#include "core/stopwatch.h"
+#include "judge/guarantee.h"
 #include "organic_model.h"
 #include "property/cases.h"
-#include "property/guarantee.h"
 #include "samples.h"
 #include "shapes.h"
 

@@ -1,10 +1,10 @@
 // Prints the rows of [Thesis, Table 5.1] for our samples, next to the published time, to what
 // CGAL's skeletonisation alone takes on the same mesh, and to what the moments cost.
 // benchmarks/results.md keeps the output with the machine named.
-#include "core/laplacian.h"
-#include "core/moments.h"
+#include "core/base/stopwatch.h"
+#include "core/physics/moments.h"
 #include "core/pipeline.h"
-#include "core/stopwatch.h"
+#include "core/reduced/laplacian.h"
 
 #include <CGAL/IO/PLY.h>
 #include <CGAL/Polyhedron_3.h>

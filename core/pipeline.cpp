@@ -1,19 +1,19 @@
 #include "core/pipeline.h"
 
-#include "core/cavity_search.h"
-#include "core/components.h"
-#include "core/frame.h"
-#include "core/harmonics.h"
-#include "core/hollowing_report.h"
-#include "core/laplacian.h"
-#include "core/limit.h"
-#include "core/offset_field.h"
-#include "core/parallel.h"
-#include "core/proxy.h"
-#include "core/skeleton.h"
-#include "core/solid.h"
-#include "core/stopwatch.h"
-#include "core/workpiece.h"
+#include "core/answer/hollowing_report.h"
+#include "core/base/parallel.h"
+#include "core/base/stopwatch.h"
+#include "core/mesh/components.h"
+#include "core/mesh/decimation.h"
+#include "core/model/frame.h"
+#include "core/model/posed_model.h"
+#include "core/model/solid.h"
+#include "core/optimum/optimal_bound.h"
+#include "core/reduced/cavity_search.h"
+#include "core/reduced/harmonics.h"
+#include "core/reduced/laplacian.h"
+#include "core/reduced/offset_field.h"
+#include "core/reduced/skeleton.h"
 
 #include <algorithm>
 #include <functional>
@@ -81,12 +81,12 @@ struct CoarseSurface {
 };
 
 /// `beside`: work for the core that the skeleton leaves free.
-CoarseSurface coarseSurface(const Workpiece& piece, const Coarseness& forCage,
+CoarseSurface coarseSurface(const PosedModel& posed, const Coarseness& forCage,
                             const Coarseness& forProxy, int basisSize,
                             const std::function<void()>& tellCopied,
                             const std::function<void()>& beside, Stages& stages) {
   const Stopwatch copying;
-  CoarseCopy cage = coarseCopy(piece.vertices, piece.faces, forCage);
+  CoarseCopy cage = coarseCopy(posed.vertices, posed.faces, forCage);
   Proxy proxy = makeProxy(cage.mesh.vertices, cage.mesh.faces, forProxy);
   stages.secondsCopy = copying.seconds();
   tellCopied();
@@ -168,20 +168,20 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   const Solid solid =
       makeSolid(model, options.openSurface, rotationToUp(options.upAxis), CrossingCheck::Later);
   requireSensible(options, solid.vertices().rows(), solid.diagonal());
-  const Workpiece piece = makeWorkpiece(solid, options);
-  if (piece.open) requireSensibleForShell(options);
-  const TriangleTree surface(piece.vertices, piece.open ? piece.open->skin : piece.faces,
+  const PosedModel posed = makePosedModel(solid, options);
+  if (posed.open) requireSensibleForShell(options);
+  const TriangleTree surface(posed.vertices, posed.open ? posed.open->skin : posed.faces,
                              TriangleTree::Order::Spatial);
 
-  const bool needsAll = options.fullResolution || options.outerUpperBound > 0.0 || piece.open;
-  const Eigen::Index n = piece.vertices.rows();
+  const bool needsAll = options.fullResolution || options.outerUpperBound > 0.0 || posed.open;
+  const Eigen::Index n = posed.vertices.rows();
   const Schedule schedule = scheduleFor(n, options.basisSize, !needsAll);
   stages.secondsCheck = total.seconds();
 
-  const Moments solidMoments = moments(piece.vertices, piece.faces);
-  const std::unique_ptr<Goal> goal = makeGoal(options, piece, piece.vertices);
+  const Moments solidMoments = moments(posed.vertices, posed.faces);
+  const std::unique_ptr<Goal> goal = makeGoal(options, posed, posed.vertices);
   const Coarseness whole{n, n, 0.0};
-  std::optional<Limit> limit;
+  std::optional<OptimalBound> limit;
   std::optional<CoarseSurface> coarse;
   const auto checkCrossings = [&] {
     const Stopwatch time;
@@ -189,17 +189,17 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
     stages.secondsCheck += time.seconds();
   };
   const auto findLimit = [&] {
-    if (options.outerUpperBound > 0.0 || piece.open) return;
+    if (options.outerUpperBound > 0.0 || posed.open) return;
     const Stopwatch time;
-    const AdmissibleCells cells = admissibleCells(surface, piece.wall);
+    const AdmissibleCells cells = admissibleCells(surface, posed.wall);
     if (cells.rows() == 0) return;
-    limit = limitOf(*goal, options.weights, solidMoments, fillingSeenBy(options), cells);
+    limit = optimalBound(*goal, options.weights, solidMoments, fillingSeenBy(options), cells);
     stages.secondsLimit = time.seconds();
   };
   const auto makeCoarseSurface = [&] {
     tell(schedule.copy, "Coarse copies");
     coarse.emplace(coarseSurface(
-        piece, needsAll ? whole : carrying(options.basisSize, kCage),
+        posed, needsAll ? whole : carrying(options.basisSize, kCage),
         options.fullResolution ? whole : carrying(options.basisSize, kProxy), options.basisSize,
         [&] { tell(schedule.skeleton, "Mean curvature skeleton and harmonic basis"); },
         checkCrossings, stages));
@@ -223,8 +223,8 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   const Points axis = smoothedOverSurface(coarse->skeleton.points, coarse->laplacian, coarse->area,
                                           kDiffusionLength);
   Points fineAxis = coarse->interpolation * axis;
-  if (piece.open) fineAxis = levelAtRim(x, faces, piece.isLid, *piece.open, fineAxis);
-  const Faces& skin = piece.open ? piece.open->skin : faces;
+  if (posed.open) fineAxis = levelAtRim(x, faces, posed.isLid, *posed.open, fineAxis);
+  const Faces& skin = posed.open ? posed.open->skin : faces;
   OffsetField field = offsetField(x, skin, fineAxis);
 
   tell(schedule.search, "Optimization");
@@ -238,27 +238,27 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
     task.interpolation = &coarse->interpolation;
     task.proxy = &coarse->proxy;
   }
-  if (piece.open) task.open = &*piece.open;
+  if (posed.open) task.open = &*posed.open;
   task.solidMoments = solidMoments;
   task.fillDensity = fillingSeenBy(options);
   task.limit = limit;
-  task.wall = piece.wall;
-  task.inputMoments = solidMoments + moments(piece.cavities.vertices, piece.cavities.faces);
+  task.wall = posed.wall;
+  task.inputMoments = solidMoments + moments(posed.cavities.vertices, posed.cavities.faces);
   const auto boundsFor = [&](double wall) {
     const auto bounds = isCopy ? innerBoundsOfCopy : innerBounds;
     return keepingWall(x, surface, field, bounds(field, wall, options.innerUpperBound), wall);
   };
   task.inner = boundsFor(task.wall);
   if (options.outerUpperBound > 0.0) {
-    task.outer = outerBounds(piece.vertices, field, options.outerLowerBound / piece.frame.length,
-                             options.outerUpperBound / piece.frame.length);
-    if (options.goal == GoalKind::Hang && !piece.pivot) holdTop(piece.vertices, *task.outer);
+    task.outer = outerBounds(posed.vertices, field, options.outerLowerBound / posed.frame.length,
+                             options.outerUpperBound / posed.frame.length);
+    if (options.goal == GoalKind::Hang && !posed.pivot) holdTop(posed.vertices, *task.outer);
     if (options.goal == GoalKind::Float || options.goal == GoalKind::StandEmptyAndFilled) {
-      task.goalFor = [&](const Points& outer) { return makeGoal(options, piece, outer); };
+      task.goalFor = [&](const Points& outer) { return makeGoal(options, posed, outer); };
     }
   }
   task.deliverable = [&](const Points& working) {
-    return toWorking(piece.frame, representable(toModel(piece.frame, working)));
+    return toWorking(posed.frame, representable(toModel(posed.frame, working)));
   };
   int percent = schedule.search;
   const auto tellSearch = [&](double share) {
@@ -268,7 +268,7 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   };
   const auto isUseless = [&](const CavityResult& found) {
     // A shell is asked for whatever a solid body could do.
-    return !piece.open && found.status == CavityStatus::Found && !isBetterThanSolid(task, found);
+    return !posed.open && found.status == CavityStatus::Found && !isBetterThanSolid(task, found);
   };
   CavityResult cavity = searchCavity(task, tellSearch);
   if (task.limit && isUseless(cavity)) {
@@ -292,10 +292,10 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   tell(Schedule::kEnd, "Report");
   Result result;
   if (cavity.status == CavityStatus::Found) {
-    const std::vector<int> places = placesInSolid(piece, coarse->cage.vertexOf);
-    Points positions = representable(toModel(piece.frame, placed(cavity.inner, places)));
+    const std::vector<int> places = placesInSolid(posed, coarse->cage.vertexOf);
+    Points positions = representable(toModel(posed.frame, placed(cavity.inner, places)));
     Faces cavityFaces = cavity.cavity.faces;
-    if (piece.open) {
+    if (posed.open) {
       // The strips end in the very points of the model.
       positions.bottomRows(n) = solid.vertices();
       cavityFaces = withoutLids(cavityFaces, n);
@@ -305,19 +305,19 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
     if (result.inner.faces.rows() > 0) {
       result.inner.faces.col(1).swap(result.inner.faces.col(2));
     }
-    result.innerWall = placed(cavity.inspection.wall, places)(inner.vertexOf) * piece.frame.length;
-    if (task.outer || piece.cavities.faces.rows() > 0) {
+    result.innerWall = placed(cavity.inspection.wall, places)(inner.vertexOf) * posed.frame.length;
+    if (task.outer || posed.cavities.faces.rows() > 0) {
       result.outer = TriangleMesh{
-          representable(toModel(piece.frame, placed(cavity.outer, piece.vertexOf))), solid.faces()};
+          representable(toModel(posed.frame, placed(cavity.outer, posed.vertexOf))), solid.faces()};
     }
   }
   // A verdict may depend on the outer surface as it has become.
   const std::unique_ptr<Goal> reached =
-      cavity.status == CavityStatus::Found ? makeGoal(options, piece, cavity.outer) : nullptr;
-  result.report = hollowingReport(piece, task, reached ? *reached : *goal, cavity, options, stages);
+      cavity.status == CavityStatus::Found ? makeGoal(options, posed, cavity.outer) : nullptr;
+  result.report = hollowingReport(posed, task, reached ? *reached : *goal, cavity, options, stages);
   if (reached && options.showAnswer) {
     tell(97, "Picture of the answer");
-    result.picture = pictureOf(piece, task, *reached, cavity);
+    result.picture = pictureOf(posed, task, *reached, cavity);
   }
   result.report.add("seconds_total", total.seconds());
   tell(100, "Done");

@@ -1,10 +1,10 @@
 // The whole story: a solid model and a goal in, an optimised cavity and its proof out.
 #pragma once
 
-#include "core/options.h"
-#include "core/picture.h"
-#include "core/report.h"
-#include "core/types.h"
+#include "core/answer/picture.h"
+#include "core/base/options.h"
+#include "core/base/report.h"
+#include "core/base/types.h"
 
 #include <functional>
 #include <optional>

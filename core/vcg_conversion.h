@@ -2,7 +2,7 @@
 // needs no vcglib and one source serves every host's mesh type and scalar.
 #pragma once
 
-#include "core/types.h"
+#include "core/base/types.h"
 
 #include <Eigen/Geometry>
 #include <vcg/complex/complex.h>
@@ -22,7 +22,7 @@ inline bool mirrors(const Placement& placement) {
 
 namespace detail {
 
-inline void turnRound(Faces& faces) {
+inline void flip(Faces& faces) {
   faces.col(1).swap(faces.col(2));
 }
 
@@ -54,7 +54,7 @@ TriangleMesh fromVcg(const VcgMesh& mesh, const Placement& placement) {
     }
     ++faces;
   }
-  if (mirrors(placement)) detail::turnRound(result.faces);
+  if (mirrors(placement)) detail::flip(result.faces);
   return result;
 }
 
@@ -86,7 +86,7 @@ void toVcg(const TriangleMesh& world, const Placement& placement, VcgMesh& mesh)
   using Scalar = typename VcgMesh::ScalarType;
   const auto vertices = stored<Scalar>(world.vertices, placement);
   Faces faces = world.faces;
-  if (mirrors(placement)) detail::turnRound(faces);
+  if (mirrors(placement)) detail::flip(faces);
 
   auto vertex =
       vcg::tri::Allocator<VcgMesh>::AddVertices(mesh, static_cast<std::size_t>(vertices.rows()));

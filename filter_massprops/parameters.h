@@ -1,7 +1,7 @@
 // The dialog's parameters and what they mean to the library.
 #pragma once
 
-#include "core/options.h"
+#include "core/base/options.h"
 #include "filter_massprops/meshlab_api.h"
 
 namespace massprops {

@@ -1,8 +1,8 @@
 // The whole filter: what it promises about every result, measured with other means than its own.
-#include "core/contact.h"
+#include "core/model/contact.h"
 #include "core/pipeline.h"
 
-#include "checks.h"
+#include "judge/checks.h"
 #include "samples.h"
 #include "shapes.h"
 

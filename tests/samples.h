@@ -1,7 +1,7 @@
 // The sample meshes of the repository.
 #pragma once
 
-#include "core/types.h"
+#include "core/base/types.h"
 
 #include <string>
 

@@ -1,7 +1,7 @@
 // The sample meshes: what each is there to show, and that its cavity can be printed.
 #include "core/pipeline.h"
 
-#include "checks.h"
+#include "judge/checks.h"
 #include "samples.h"
 
 #include <gtest/gtest.h>

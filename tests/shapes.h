@@ -2,7 +2,7 @@
 // All are oriented outwards; unless said otherwise they are centred at the origin.
 #pragma once
 
-#include "core/types.h"
+#include "core/base/types.h"
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // Another number of threads for a test.
 #pragma once
 
-#include "core/parallel.h"
+#include "core/base/parallel.h"
 
 namespace massprops::testing {
 

@@ -3,10 +3,10 @@
 //
 // The first byte chooses how the rest is read: as coordinates and indices just as they come, or as
 // changes to a small solid, which get deeper into the filter.
-#include "checks.h"
+#include "core/model/solid.h"
 #include "core/pipeline.h"
-#include "core/solid.h"
-#include "property/guarantee.h"
+#include "judge/checks.h"
+#include "judge/guarantee.h"
 #include "shapes.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "property/cases.h"
 
-#include "checks.h"
+#include "judge/checks.h"
 #include "property/mesher.h"
 #include "shapes.h"
 

@@ -1,8 +1,8 @@
 // Random models and what is asked of them: the same case for the same seed and number.
 #pragma once
 
-#include "core/options.h"
-#include "core/types.h"
+#include "core/base/options.h"
+#include "core/base/types.h"
 
 #include <cstdint>
 #include <string>

@@ -1,7 +1,7 @@
 // A closed triangle mesh of the inside of an implicit function.
 #pragma once
 
-#include "core/types.h"
+#include "core/base/types.h"
 
 #include <functional>
 

@@ -4,9 +4,9 @@
 //
 // Every case runs in a process of its own, so that a crash or a hang is a finding like any other.
 // A finding prints how to run its case alone, and its model is written to FOLDER as PLY.
-#include "checks.h"
-#include "core/stopwatch.h"
-#include "property/guarantee.h"
+#include "core/base/stopwatch.h"
+#include "judge/checks.h"
+#include "judge/guarantee.h"
 #include "shapes.h"
 
 #include <signal.h>

@@ -1,0 +1,39 @@
+// The report on a finished search: solid before, delivered body after.
+#pragma once
+
+#include "core/base/report.h"
+#include "core/model/posed_model.h"
+#include "core/reduced/cavity_search.h"
+
+#include <string>
+
+namespace massprops {
+
+/// What happened before and beside the search.
+struct Stages {
+  std::string repairs;       ///< of the input, in words
+  int skeletonFailures = 0;  ///< components on which the mean curvature flow failed
+  double largestWall = 0.0;  ///< working length; of use when there is no room for a cavity
+  double secondsCheck = 0.0; ///< of the input, and making it ready
+  double secondsCopy = 0.0;
+  double secondsSkeleton = 0.0;
+  double secondsBasis = 0.0;
+  double secondsLimit = 0.0;
+};
+
+/// Whether the cavity serves the goal better than leaving the body solid: it violates the
+/// constraints less or, where both keep them, has the lower objective.
+bool isBetterThanSolid(const CavityTask& task, const CavityResult& cavity);
+
+/// Whether the first serves the goal better, in the same sense; none is worse than any.
+bool isBetter(const CavityTask& task, const CavityResult& cavity, const CavityResult& other);
+
+/// The report's `gap_to_limit`; 0 where there is no cavity or no limit.
+double gapToLimit(const CavityTask& task, const CavityResult& cavity);
+
+/// All keys of docs/report.md but `seconds_total`. `goalAfter`: the task's goal for the outer
+/// surface of the result. An empty cavity stands for the solid body.
+Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Goal& goalAfter,
+                       const CavityResult& cavity, const Options& options, const Stages& stages);
+
+} // namespace massprops

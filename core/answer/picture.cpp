@@ -1,0 +1,71 @@
+#include "core/answer/picture.h"
+
+#include "core/answer/cutaway.h"
+#include "core/mesh/components.h"
+#include "core/model/posed_model.h"
+#include "core/reduced/cavity_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace massprops {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+/// Centres of mass nearer to one vertical than this, in diagonals, say nothing about the cut.
+constexpr double kApart = 5e-3;
+
+Vec2 widestDirection(const Points& vertices) {
+  constexpr int kDirections = 36;
+  Vec2 widest = Vec2::UnitX();
+  double width = 0.0;
+  for (int i = 0; i < kDirections; ++i) {
+    const double angle = kPi * i / kDirections;
+    const Vec2 u(std::cos(angle), std::sin(angle));
+    const Vector along = vertices.leftCols<2>() * u;
+    const double extent = along.maxCoeff() - along.minCoeff();
+    if (extent <= width) continue;
+    width = extent;
+    widest = u;
+  }
+  return widest;
+}
+
+} // namespace
+
+Picture pictureOf(const PosedModel& posed, const CavityTask& task, const Goal& goalAfter,
+                  const CavityResult& cavity) {
+  const Moments massAfter =
+      shellMoments(outerMoments(task, cavity), moments(cavity.inner, cavity.cavity.faces), 1.0,
+                   task.fillDensity);
+  const Vec3 before = massProperties(task.inputMoments).centerOfMass;
+  const Vec3 after = massProperties(massAfter).centerOfMass;
+
+  const Vec2 lean = (before - after).head<2>();
+  const Vec2 along = lean.norm() > kApart ? lean : widestDirection(cavity.outer);
+  // Who looks at the front, -y where z is up and +z where y is up, looks at the cut.
+  Vec3 normal = Vec3(along.y(), -along.x(), 0.0).normalized();
+  if (normal.x() < normal.y()) normal *= -1.0;
+  Picture picture;
+  const Eigen::Index n = task.vertices.rows();
+  const Submesh material = submesh(stacked(cavity.inner.topRows(n), cavity.outer),
+                                   shellOf(task.surface.faces(), cavity.cavity.faces, n));
+  const auto cavityVertices = std::count_if(material.vertexOf.begin(), material.vertexOf.end(),
+                                            [&](int v) { return v < n; });
+  picture.cutOpen = cutaway(material.mesh, cavityVertices, after, normal);
+
+  Annotations annotations(cavity.outer);
+  annotations.addBall(before, kBeforeColour);
+  annotations.addBall(after, kAfterColour);
+  picture.marksName = "centre of mass";
+  const std::string drawn = goalAfter.draw(task.inputMoments, massAfter, annotations);
+  if (!drawn.empty()) picture.marksName += " and " + drawn;
+  picture.marks = annotations.mesh();
+
+  for (ColouredMesh* part : {&picture.cutOpen, &picture.marks}) {
+    part->mesh.vertices = toModel(posed.frame, part->mesh.vertices);
+  }
+  return picture;
+}
+
+} // namespace massprops

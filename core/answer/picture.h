@@ -1,0 +1,30 @@
+// The answer as meshes: the body cut open, and what it is judged by.
+#pragma once
+
+#include "core/mesh/annotations.h"
+
+#include <string>
+
+namespace massprops {
+
+class Goal;
+struct CavityResult;
+struct CavityTask;
+struct PosedModel;
+
+/// In model coordinates.
+struct Picture {
+  /// Half of the material, cut along the vertical plane through the centres of mass before and
+  /// after or, where these lie above each other, along the body's greatest width.
+  ColouredMesh cutOpen;
+  /// The centres of mass before and after, and what the goal draws.
+  ColouredMesh marks;
+  std::string marksName; ///< "centre of mass and contact area"
+};
+
+/// `goalAfter`: the task's goal for the outer surface of the result. \pre the search found
+/// something
+Picture pictureOf(const PosedModel& posed, const CavityTask& task, const Goal& goalAfter,
+                  const CavityResult& cavity);
+
+} // namespace massprops

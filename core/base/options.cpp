@@ -1,0 +1,103 @@
+#include "core/base/options.h"
+
+#include <cmath>
+#include <string>
+
+namespace massprops {
+namespace {
+
+/// As many coefficients are needed as there are equalities in the goal.
+int equalityCount(GoalKind goal) {
+  switch (goal) {
+  case GoalKind::Spin:
+    return 4;
+  case GoalKind::YoYo:
+    return 5;
+  case GoalKind::Float:
+    return 3;
+  case GoalKind::Hang:
+    return 2;
+  default:
+    return 1;
+  }
+}
+
+} // namespace
+
+const std::vector<std::string>& goalNames() {
+  static const std::vector<std::string> names = {
+      "Stand", "Spin", "Yo-yo", "Stand empty and filled", "Roll upright", "Float", "Hang", "Mass"};
+  return names;
+}
+
+void requireSensible(const Options& options, Eigen::Index vertexCount, double diagonal) {
+  const auto require = [](bool holds, const std::string& sentence) {
+    if (!holds) throw InvalidInput(sentence);
+  };
+  const auto finite = [](double value) { return std::isfinite(value); };
+  require(options.basisSize >= 1, "basis_k is " + std::to_string(options.basisSize) +
+                                      ": give at least 1; 36 suits most models.");
+  require(options.basisSize < vertexCount,
+          "basis_k is " + std::to_string(options.basisSize) + ", but this model has only " +
+              std::to_string(vertexCount) +
+              " vertices: lower basis_k below that, or refine the model with Remeshing > "
+              "Subdivision Surfaces: Midpoint.");
+  const int equalities = equalityCount(options.goal);
+  require(options.basisSize >= equalities,
+          "basis_k is " + std::to_string(options.basisSize) + ": the goal " +
+              goalNames()[static_cast<std::size_t>(options.goal)] + " has to meet " +
+              std::to_string(equalities) + " conditions at once; give at least as many functions.");
+  for (const std::optional<double>& radius : {options.radiusX, options.radiusY}) {
+    require(!radius || (finite(*radius) && *radius > 0.0),
+            "radius_x and radius_y must be positive, or 0 to take them from the model.");
+  }
+  require(options.radiusX.has_value() == options.radiusY.has_value(),
+          "Give both radius_x and radius_y, or leave both 0 to take them from the model.");
+  require(!options.innerLowerBound ||
+              (finite(*options.innerLowerBound) && *options.innerLowerBound > 0.0),
+          "inner_lower_bound, the minimum wall, must be greater than 0.");
+  require(finite(options.innerUpperBound) && options.innerUpperBound > 0.0 &&
+              options.innerUpperBound <= 1.0,
+          "inner_upper_bound is a factor on the distance to the skeleton: give a value above 0 and "
+          "at most 1.");
+  require(!options.innerLowerBound || *options.innerLowerBound < options.innerUpperBound * diagonal,
+          "inner_lower_bound lies above inner_upper_bound for every point of this model: lower the "
+          "minimum wall.");
+  require(finite(options.outerLowerBound) && finite(options.outerUpperBound) &&
+              options.outerLowerBound >= 0.0 && options.outerUpperBound >= 0.0,
+          "outer_lower_bound and outer_upper_bound must be 0 or positive: the outer surface only "
+          "moves outwards.");
+  require(options.outerLowerBound <= options.outerUpperBound,
+          "outer_lower_bound is greater than outer_upper_bound: swap them.");
+  require(options.outerUpperBound <= 0.5 * diagonal,
+          "outer_upper_bound is more than half of the model's diagonal: lower it.");
+  const Weights& w = options.weights;
+  for (const double weight :
+       {w.volume, w.centerOfMass, w.inertia, w.smoothness, w.constraints, w.outer}) {
+    require(finite(weight) && weight >= 0.0, "opt_weight_1 to opt_weight_6 must be 0 or positive.");
+  }
+  require(finite(options.density) && options.density > 0.0,
+          "density must be greater than 0 g/cm³; PLA has 1.24.");
+  require(finite(options.fillDensity) && options.fillDensity >= 0.0,
+          "fill_density must be 0 (an empty cavity) or positive.");
+  require(options.goal != GoalKind::StandEmptyAndFilled || options.fillDensity > 0.0,
+          "The goal Stand empty and filled needs fill_density, the density of what will be in the "
+          "cavity: 1 for water.");
+  require(!options.pivot || options.pivot->allFinite(),
+          "pivot_x, pivot_y and pivot_z must be coordinates of a point.");
+  require(options.waterLevel > 0.0 && options.waterLevel <= 1.0,
+          "water_level is a share of the model's height: give a value above 0 and at most 1 (under "
+          "water).");
+  require(finite(options.waterDensity) && options.waterDensity > 0.0,
+          "water_density must be greater than 0 g/cm³; fresh water has 1.");
+  require(finite(options.targetMass) && options.targetMass >= 0.0,
+          "target_mass must be 0 (as light as possible) or a mass in grams.");
+}
+
+void requireSensibleForShell(const Options& options) {
+  if (options.outerUpperBound == 0.0) return;
+  throw InvalidInput("An open surface stays where it is: set outer_lower_bound and "
+                     "outer_upper_bound to 0, or close it with Remeshing > Close Holes.");
+}
+
+} // namespace massprops

@@ -1,0 +1,88 @@
+// What the user asks for: one field per parameter of the dialog.
+#pragma once
+
+#include "core/base/types.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace massprops {
+
+/// In the order of the dialog.
+enum class GoalKind {
+  Stand,
+  Spin,
+  YoYo,
+  StandEmptyAndFilled,
+  RollUpright,
+  Float,
+  Hang,
+  Mass,
+};
+
+/// In the order of `GoalKind`, as the dialog shows them.
+const std::vector<std::string>& goalNames();
+
+/// In the order of the dialog.
+enum class UpAxis { PlusZ, PlusY, PlusX, MinusZ, MinusY, MinusX };
+
+/// Dimensionless factors of the objective's terms (docs/math.md, "Objective"). The defaults give
+/// the goal's published objective.
+struct Weights {
+  double volume = 0.0;       ///< opt_weight_1: material volume / volume of the solid
+  double centerOfMass = 1.0; ///< opt_weight_2: the goal's terms in mass and centre of mass
+  double inertia = 1.0;      ///< opt_weight_3: the goal's terms in the moments of inertia
+  double smoothness = 0.0;   ///< opt_weight_4: Dirichlet energy of the offsets
+  double constraints = 1.0;  ///< opt_weight_5: squared violation; 0 leaves the constraints out
+  double outer = 0.0;        ///< opt_weight_6: mean squared displacement of the outer surface
+};
+
+struct Options {
+  GoalKind goal = GoalKind::Stand;
+  /// k, the number of harmonic basis functions; less than the number of vertices and at least the
+  /// number of the goal's equalities: Spin 4, Yo-yo 5, Float 3, Hang 2, Mass 1.
+  int basisSize = 36;
+  /// Half axes of the elliptic contact area along the two horizontal axes that follow the up axis
+  /// cyclically (x, y for +Z); length. Empty: taken from the model's ground contacts.
+  std::optional<double> radiusX, radiusY;
+  /// Minimum wall, perpendicular to the surface; length. Empty: 1 % of the diagonal.
+  std::optional<double> innerLowerBound;
+  /// Greatest offset as a fraction of the distance to the skeleton, in (0, 1).
+  double innerUpperBound = 0.9;
+  /// Range of the outward displacement of the outer surface; lengths. Both 0: it stays.
+  double outerLowerBound = 0.0;
+  double outerUpperBound = 0.0;
+  Weights weights;
+  UpAxis upAxis = UpAxis::PlusZ;
+  double density = 1.24;    ///< of the material, g/cm³; the default is PLA
+  double fillDensity = 0.0; ///< of what fills the cavity, g/cm³
+  /// Spin: a point of the axis; Yo-yo: the middle of the axle; Hang: the point it hangs from. In
+  /// model coordinates. Empty: Spin takes the centre of the ground contact, Yo-yo the point above
+  /// it at half the height, Hang the middle of the topmost vertices.
+  std::optional<Vec3> pivot;
+  /// Float: how deep it shall lie in the water, as a share of its height; 1 is neutral, under
+  /// water.
+  double waterLevel = 0.5;
+  double waterDensity = 1.0; ///< Float: g/cm³
+  double targetMass = 0.0;   ///< Mass: g; 0 is as light as possible
+  /// Skeleton, basis and cavity on the whole surface instead of on coarse copies: slow; what the
+  /// copies are measured against.
+  bool fullResolution = false;
+  /// Whether a surface with boundary loops is taken as one side of a shell; otherwise it is
+  /// refused.
+  bool openSurface = false;
+  /// Whether the result brings a picture of the answer.
+  bool showAnswer = false;
+  /// Rounds points to what the caller can store (a float mesh, say). What is delivered, checked
+  /// and reported is the rounded surface. Empty: double precision.
+  std::function<Points(const Points&)> representable;
+};
+
+/// \throw InvalidInput when an option is absurd in itself or for a model of that size
+void requireSensible(const Options& options, Eigen::Index vertexCount, double diagonal);
+/// \throw InvalidInput when an option is absurd for a surface that is open
+void requireSensibleForShell(const Options& options);
+
+} // namespace massprops

@@ -1,0 +1,126 @@
+#include "core/check/inspection.h"
+
+#include "core/mesh/components.h"
+#include "core/mesh/degenerate_faces.h"
+#include "core/mesh/signed_volume.h"
+#include "core/model/open_surface.h"
+#include "core/query/nesting.h"
+#include "core/query/point_in_mesh.h"
+#include "core/query/self_intersection.h"
+
+#include <algorithm>
+#include <initializer_list>
+
+namespace massprops {
+namespace {
+
+constexpr double kWallTolerance = 0.005;
+
+/// The vertices of these faces, ascending.
+std::vector<int> verticesOf(const Faces& faces,
+                            std::initializer_list<const std::vector<int>*> lists) {
+  std::vector<int> vertices;
+  for (const std::vector<int>* list : lists) {
+    for (const int f : *list) {
+      for (const int v : faces.row(f)) vertices.push_back(v);
+    }
+  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
+/// Adds what is not in the list yet, which stays ascending.
+void add(const std::vector<int>& more, std::vector<int>& list) {
+  list.insert(list.end(), more.begin(), more.end());
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+std::vector<int> thinnerThan(double wall, const Eigen::Ref<const Vector>& walls) {
+  std::vector<int> thin;
+  for (Eigen::Index v = 0; v < walls.size(); ++v) {
+    if (walls[v] < (1.0 - kWallTolerance) * wall) thin.push_back(static_cast<int>(v));
+  }
+  return thin;
+}
+
+} // namespace
+
+Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleTree& outer,
+                   double wall, bool outerMoved, LookFirst first, ClearanceMemory* memory) {
+  Inspection inspection;
+  const auto takeFolds = [&] {
+    const std::vector<int> folded =
+        selfIntersectingFaces(inner, innerFaces, TriangleTree::Order::Spatial);
+    const std::vector<int> flat = facesWithoutArea(inner, innerFaces);
+    add(verticesOf(innerFaces, {&folded, &flat}), inspection.crossing);
+  };
+  const auto takeWall = [&] {
+    Clearance clearance = clearanceOf(inner, innerFaces, outer, wall, memory);
+    add(verticesOf(innerFaces, {&clearance.crossing}), inspection.crossing);
+    inspection.wall = std::move(clearance.distance);
+    inspection.leastWall = clearance.least;
+    inspection.nearestFace = std::move(clearance.nearestFace);
+    inspection.thin = thinnerThan(wall, inspection.wall);
+  };
+  if (first == LookFirst::ForThinWalls) {
+    takeWall();
+    if (!inspection.thin.empty()) return inspection;
+    takeFolds();
+  } else {
+    takeFolds();
+    if (first == LookFirst::ForFolds && !inspection.crossing.empty()) return inspection;
+    takeWall();
+  }
+  if (outerMoved) {
+    const std::vector<int> outerFolds = selfIntersectingFaces(outer);
+    inspection.outerCrossing = verticesOf(outer.faces(), {&outerFolds});
+  }
+
+  const Components components = connectedComponents(inner.rows(), innerFaces);
+  inspection.components = static_cast<int>(components.size());
+  const std::vector<int> depths = nestingDepths(inner, components);
+  for (std::size_t c = 0; c < components.size(); ++c) {
+    // What crosses the outer surface is told above; else all of a component is inside, or nothing.
+    const bool inside = isInside(inner, components[c], outer);
+    const bool outward = signedVolume(inner, components[c]) > 0.0;
+    if (inside && outward && depths[c] == 0) continue;
+    add(std::vector<int>(components[c].data(), components[c].data() + components[c].size()),
+        inspection.crossing);
+  }
+  return inspection;
+}
+
+Inspection inspectShell(const Points& positions, const Faces& cavity, const TriangleTree& skin,
+                        double wall) {
+  const Eigen::Index n = positions.rows() / 2;
+  Inspection inspection;
+  const Faces shell = shellOf(skin.faces(), cavity, n);
+  const std::vector<int> folded = selfIntersectingFaces(positions, shell);
+  const std::vector<int> flat = facesWithoutArea(positions, shell);
+  std::vector<int> bad = verticesOf(shell, {&folded, &flat});
+  if (bad.empty()) {
+    const Components parts = connectedComponents(positions.rows(), shell);
+    const std::vector<int> depths = nestingDepths(positions, parts);
+    for (std::size_t c = 0; c < parts.size(); ++c) {
+      // Closed cavities lie in the material and face into it; the rest bounds it from outside.
+      const double volume = signedVolume(positions, parts[c]);
+      if (depths[c] == (volume > 0.0 ? 0 : 1)) continue;
+      bad.insert(bad.end(), parts[c].data(), parts[c].data() + parts[c].size());
+    }
+  }
+  for (int& v : bad) v = v < n ? v : v - static_cast<int>(n);
+  add(bad, inspection.crossing);
+
+  Clearance clearance = clearanceOf(positions, withoutStrips(cavity, n), skin, wall);
+  inspection.wall = std::move(clearance.distance);
+  inspection.wall.tail(n).setZero();
+  inspection.leastWall = clearance.least;
+  inspection.nearestFace = std::move(clearance.nearestFace);
+  inspection.thin = thinnerThan(wall, inspection.wall.head(n));
+  inspection.components = static_cast<int>(connectedComponents(positions.rows(), cavity).size());
+  return inspection;
+}
+
+} // namespace massprops

@@ -1,0 +1,50 @@
+// What is wrong with a cavity, vertex by vertex, measured on the triangles to be delivered.
+#pragma once
+
+#include "core/base/types.h"
+#include "core/query/surface_distance.h"
+#include "core/query/triangle_tree.h"
+
+#include <vector>
+
+namespace massprops {
+
+struct Inspection {
+  /// Distance from the outer surface, see `Clearance`, exact below the wanted wall; n entries.
+  Vector wall;
+  double leastWall = 0.0; ///< exact; infinity when there is no cavity
+  /// Vertices of faces that cross another face, or of a component that is not inside of the outer
+  /// surface, is turned inside out or lies in another component; ascending.
+  std::vector<int> crossing;
+  /// Vertices of faces of a moved outer surface that cross each other, ascending.
+  std::vector<int> outerCrossing;
+  /// Vertices whose wall is too thin by more than 0.5 %, ascending.
+  std::vector<int> thin;
+  /// The outer face next to each vertex; −1 for a vertex without a face.
+  std::vector<int> nearestFace;
+  int components = 0;
+
+  bool isClean() const { return crossing.empty() && outerCrossing.empty() && thin.empty(); }
+};
+
+/// What is looked for first; where it is found, that is told alone.
+enum class LookFirst { ForAll, ForFolds, ForThinWalls };
+
+/// Exact predicates for crossings and containment, double precision for distances: surfaces that
+/// are a wall apart do not cross.
+/// `inner`, `innerFaces`: the cavity, outward oriented as a body of its own. `wall`: wanted
+/// distance, same unit. `outerMoved`: whether the outer surface may cross itself. `memory`: null,
+/// or of inspections against the same outer surface.
+Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleTree& outer,
+                   double wall, bool outerMoved, LookFirst first = LookFirst::ForAll,
+                   ClearanceMemory* memory = nullptr);
+
+/// An inspection of the shell of an open surface (open_surface.h): skin, offset surface and strips
+/// together are free of crossings and bound the material, and the offset surface, strips apart,
+/// keeps the wall from the skin. `positions`: 2n×3, the last n those of the skin; `wall`,
+/// `nearestFace` have 2n entries, the latter faces of the skin, the wall being 0 on the skin
+/// itself; `crossing` and `thin` are vertices below n.
+Inspection inspectShell(const Points& positions, const Faces& cavity, const TriangleTree& skin,
+                        double wall);
+
+} // namespace massprops

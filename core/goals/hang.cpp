@@ -1,0 +1,99 @@
+#include "core/goals/goals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace massprops {
+namespace {
+
+constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+/// The centre of mass hangs at least this deep below the point, in diagonals: nearer to it the
+/// smallest flaw of the print turns the body.
+constexpr double kLeastDepth = 0.01;
+/// Verdict: what the eye still takes for upright.
+constexpr double kUpright = 0.5; // degrees
+
+class HangGoal final : public Goal {
+public:
+  HangGoal(Vec3 suspension, const Weights& weights, double lengthUnit)
+      : suspension_(std::move(suspension)), weight_(weights.centerOfMass), lengthUnit_(lengthUnit) {
+  }
+
+  GoalValue objective(const Moments& massMoments) const override {
+    const MassProperties body = massProperties(massMoments);
+    const Vec3 c = body.centerOfMass - suspension_;
+    GoalValue f;
+    f.value = weight_ * (c.x() * c.x() + c.y() * c.y() + c.z());
+    f.gradient = weight_ * Eigen::RowVector3d(2.0 * c.x(), 2.0 * c.y(), 1.0) *
+                 massPropertyGradients(body).centerOfMass;
+    return f;
+  }
+
+  GoalConstraints equalities(const Moments& massMoments) const override {
+    const MassProperties body = massProperties(massMoments);
+    return {(body.centerOfMass - suspension_).head<2>(),
+            massPropertyGradients(body).centerOfMass.topRows<2>()};
+  }
+
+  GoalConstraints inequalities(const Moments& massMoments) const override {
+    const MassProperties body = massProperties(massMoments);
+    return {Vector::Constant(1, body.centerOfMass.z() - suspension_.z() + kLeastDepth),
+            massPropertyGradients(body).centerOfMass.row(2)};
+  }
+
+  bool usesInertia() const override { return false; }
+
+  bool isReached(const Moments& massMoments) const override {
+    return angle(massMoments) < kUpright;
+  }
+
+  std::string worstViolation(const Moments& massMoments) const override {
+    const Vec3 c = massProperties(massMoments).centerOfMass - suspension_;
+    return inequalities(massMoments).values[0] > c.head<2>().norm()
+               ? "the centre of mass lies " + toString((c.z() + kLeastDepth) * lengthUnit_) +
+                     " too high under the suspension point"
+               : "the centre of mass lies " + toString(c.head<2>().norm() * lengthUnit_) +
+                     " off the plumb line of the suspension point";
+  }
+
+  void describe(const Moments& massMoments, const std::string& suffix,
+                Report& report) const override {
+    const Vec3 c = massProperties(massMoments).centerOfMass - suspension_;
+    report.add("hanging_angle_" + suffix, angle(massMoments));
+    report.add("hanging_depth_" + suffix, -c.z() * lengthUnit_);
+    report.add("hangs_upright_" + suffix, isReached(massMoments));
+  }
+
+  /// The thread from above the suspension point down to the height of the centres of mass.
+  std::string draw(const Moments& before, const Moments& after,
+                   Annotations& annotations) const override {
+    const double over = 0.1 * annotations.box().diagonal().norm();
+    const double lowest =
+        std::min(massProperties(before).centerOfMass.z(), massProperties(after).centerOfMass.z());
+    annotations.addBall(suspension_, kGroundColour);
+    annotations.addLine({suspension_.x(), suspension_.y(), lowest},
+                        suspension_ + over * Vec3::UnitZ(), kGroundColour);
+    return "plumb line";
+  }
+
+private:
+  /// By which the body turns until its centre of mass is plumb below the point, degrees.
+  double angle(const Moments& massMoments) const {
+    const Vec3 c = massProperties(massMoments).centerOfMass - suspension_;
+    return std::atan2(c.head<2>().norm(), -c.z()) * kDegrees;
+  }
+
+  Vec3 suspension_;
+  double weight_;
+  double lengthUnit_;
+};
+
+} // namespace
+
+std::unique_ptr<Goal> makeHangGoal(const Vec3& suspension, const Weights& weights,
+                                   double lengthUnit) {
+  return std::make_unique<HangGoal>(suspension, weights, lengthUnit);
+}
+
+} // namespace massprops

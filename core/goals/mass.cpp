@@ -1,0 +1,68 @@
+#include "core/goals/goals.h"
+
+#include <cmath>
+
+namespace massprops {
+namespace {
+
+/// Verdict: as exact as a print can be, as a share of the target.
+constexpr double kExact = 1e-3;
+
+class MassGoal final : public Goal {
+public:
+  MassGoal(double solidMass, const std::optional<double>& target, const Weights& weights,
+           double grams)
+      : solidMass_(solidMass), target_(target), weight_(weights.centerOfMass), grams_(grams) {}
+
+  GoalValue objective(const Moments& massMoments) const override {
+    const double excess = (massMoments[0] - target_.value_or(0.0)) / solidMass_;
+    GoalValue f;
+    f.value = weight_ * excess * excess;
+    f.gradient[0] = 2.0 * weight_ * excess / solidMass_;
+    return f;
+  }
+
+  GoalConstraints equalities(const Moments& massMoments) const override {
+    if (!target_) return {};
+    GoalConstraints h{Vector::Constant(1, (massMoments[0] - *target_) / solidMass_),
+                      MomentGradients::Zero(1, 10)};
+    h.gradients(0, 0) = 1.0 / solidMass_;
+    return h;
+  }
+
+  GoalConstraints inequalities(const Moments& /*massMoments*/) const override { return {}; }
+
+  bool usesInertia() const override { return false; }
+
+  bool isReached(const Moments& massMoments) const override {
+    return !target_ || std::abs(massMoments[0] - *target_) <= kExact * *target_;
+  }
+
+  std::string worstViolation(const Moments& massMoments) const override {
+    const double excess = (massMoments[0] - target_.value_or(0.0)) * grams_;
+    return "the mass is " + toString(std::abs(excess)) + " g too " +
+           (excess > 0.0 ? "large" : "small");
+  }
+
+  void describe(const Moments& massMoments, const std::string& suffix,
+                Report& report) const override {
+    if (!target_) return;
+    report.add("mass_error_" + suffix, (massMoments[0] - *target_) * grams_);
+    report.add("weighs_target_" + suffix, isReached(massMoments));
+  }
+
+private:
+  double solidMass_;
+  std::optional<double> target_;
+  double weight_;
+  double grams_;
+};
+
+} // namespace
+
+std::unique_ptr<Goal> makeMassGoal(double solidMass, const std::optional<double>& target,
+                                   const Weights& weights, double grams) {
+  return std::make_unique<MassGoal>(solidMass, target, weights, grams);
+}
+
+} // namespace massprops

@@ -1,0 +1,67 @@
+#include "core/mesh/hole_filling.h"
+
+#include "core/mesh/cgal_mesh.h"
+#include "core/mesh/degenerate_faces.h"
+
+#include <CGAL/Polygon_mesh_processing/border.h>
+#include <CGAL/Polygon_mesh_processing/refine.h>
+#include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
+
+#include <iterator>
+#include <vector>
+
+namespace massprops {
+namespace {
+
+using Kernel = SurfaceKernel;
+using Mesh = SurfaceMesh;
+namespace Processing = CGAL::Polygon_mesh_processing;
+
+void requireLid(bool isClosed) {
+  if (isClosed) return;
+  throw InvalidInput(
+      "An opening of the surface cannot be closed by a lid, which open_surface needs "
+      "for its own reckoning: straighten its border with Smoothing > Laplacian "
+      "Smooth on the selected border, then run again.");
+}
+
+} // namespace
+
+TriangleMesh withOpeningsFilled(const TriangleMesh& open) {
+  Mesh mesh = surfaceMesh(open);
+  std::vector<Mesh::Halfedge_index> loops;
+  Processing::extract_boundary_cycles(mesh, std::back_inserter(loops));
+  for (const Mesh::Halfedge_index loop : loops) {
+    std::vector<Mesh::Face_index> lid;
+    // Most openings are flat; their triangulation in the plane has no flat triangles.
+    Processing::triangulate_hole(mesh, loop, std::back_inserter(lid),
+                                 CGAL::parameters::use_2d_constrained_delaunay_triangulation(true));
+    requireLid(!lid.empty());
+    std::vector<Mesh::Face_index> addedFaces;
+    std::vector<Mesh::Vertex_index> addedVertices;
+    Processing::refine(mesh, lid, std::back_inserter(addedFaces),
+                       std::back_inserter(addedVertices));
+  }
+
+  TriangleMesh closed{Points(static_cast<Eigen::Index>(mesh.number_of_vertices()), 3),
+                      Faces(static_cast<Eigen::Index>(mesh.number_of_faces()), 3)};
+  for (const Mesh::Vertex_index v : mesh.vertices()) {
+    const Kernel::Point_3& p = mesh.point(v);
+    closed.vertices.row(static_cast<Eigen::Index>(v.idx())) << p.x(), p.y(), p.z();
+  }
+  closed.faces.topRows(open.faces.rows()) = open.faces;
+  for (const Mesh::Face_index f : mesh.faces()) {
+    const auto row = static_cast<Eigen::Index>(f.idx());
+    if (row < open.faces.rows()) continue;
+    int k = 0;
+    for (const Mesh::Vertex_index v : mesh.vertices_around_face(mesh.halfedge(f))) {
+      closed.faces(row, k++) = static_cast<int>(v.idx());
+    }
+  }
+  for (const int f : facesWithoutArea(closed.vertices, closed.faces)) {
+    requireLid(f < open.faces.rows());
+  }
+  return closed;
+}
+
+} // namespace massprops

@@ -1,0 +1,166 @@
+#include "core/model/contact.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/convex_hull_2.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace massprops {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kContactTolerance = 1e-4;
+
+double cross(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+std::vector<Vec2> convexHull(const std::vector<Vec2>& points) {
+  std::vector<Kernel::Point_2> input;
+  input.reserve(points.size());
+  for (const Vec2& p : points) input.emplace_back(p.x(), p.y());
+  std::vector<Kernel::Point_2> hull;
+  CGAL::convex_hull_2(input.begin(), input.end(), std::back_inserter(hull));
+  std::vector<Vec2> result;
+  result.reserve(hull.size());
+  for (const Kernel::Point_2& p : hull) result.emplace_back(p.x(), p.y());
+  return result;
+}
+
+double signedArea(const std::vector<Vec2>& polygon) {
+  double twice = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+  }
+  return 0.5 * twice;
+}
+
+Vec2 centroid(const std::vector<Vec2>& polygon) {
+  const Vec2& base = polygon.front();
+  Vec2 sum = Vec2::Zero();
+  double twice = 0.0;
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+    const Vec2 a = polygon[i] - base;
+    const Vec2 b = polygon[i + 1] - base;
+    sum += cross(a, b) * (a + b) / 3.0;
+    twice += cross(a, b);
+  }
+  return base + sum / twice;
+}
+
+/// Minimum over all unit directions u of extent(u) − u·c: the distance to the nearest edge's line
+/// inside of the polygon, minus the distance to the polygon outside.
+double signedDistance(const std::vector<Vec2>& polygon, const Vec2& c) {
+  double inside = std::numeric_limits<double>::infinity();
+  double outside = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2& p = polygon[i];
+    const Vec2 edge = polygon[(i + 1) % polygon.size()] - p;
+    inside = std::min(inside, cross(edge, c - p) / edge.norm());
+    const double t = std::clamp(edge.dot(c - p) / edge.squaredNorm(), 0.0, 1.0);
+    outside = std::min(outside, (c - p - t * edge).norm());
+  }
+  return inside >= 0.0 ? inside : -outside;
+}
+
+Vec2 direction(double angle) {
+  return {std::cos(angle), std::sin(angle)};
+}
+
+} // namespace
+
+GroundContact groundContact(const Points& upright, const std::optional<Vec2>& radii) {
+  const double ground = upright.col(2).minCoeff();
+  const double diagonal = (upright.colwise().maxCoeff() - upright.colwise().minCoeff()).norm();
+  std::vector<Vec2> touching;
+  for (Eigen::Index v = 0; v < upright.rows(); ++v) {
+    if (upright(v, 2) <= ground + kContactTolerance * diagonal) {
+      touching.emplace_back(upright(v, 0), upright(v, 1));
+    }
+  }
+  std::vector<Vec2> hull = convexHull(touching);
+  const double smallestArea = std::pow(kContactTolerance * diagonal, 2);
+  const bool flat = hull.size() >= 3 && signedArea(hull) > smallestArea;
+  Vec2 centre = Vec2::Zero();
+  if (flat) {
+    centre = centroid(hull);
+  } else {
+    for (const Vec2& p : touching) centre += p / static_cast<double>(touching.size());
+  }
+  GroundContact contact;
+  contact.centre << centre, ground;
+  if (flat) {
+    for (Vec2& corner : hull) corner -= centre;
+    contact.area.polygon = std::move(hull);
+  }
+  contact.area.radii = radii;
+  return contact;
+}
+
+void requireArea(const ContactArea& area) {
+  if (!area.polygon.empty() || area.radii) return;
+  throw InvalidInput("The model touches the ground only in a point or along a line, so it has "
+                     "nothing to stand on: turn it upright, cut a flat foot (Compute Planar "
+                     "Section), choose another up_axis, or set radius_x and radius_y to the "
+                     "size of its contact area, then run again.");
+}
+
+ContactArea scaled(const ContactArea& area, double length) {
+  ContactArea result = area;
+  for (Vec2& corner : result.polygon) corner /= length;
+  if (result.radii) *result.radii /= length;
+  return result;
+}
+
+double extent(const ContactArea& area, const Vec2& u) {
+  if (area.radii) return area.radii->cwiseProduct(u).norm();
+  double farthest = area.polygon.front().dot(u);
+  for (const Vec2& corner : area.polygon) farthest = std::max(farthest, corner.dot(u));
+  return farthest;
+}
+
+std::vector<Vec2> outline(const ContactArea& area) {
+  if (!area.radii) return area.polygon;
+  constexpr int kCorners = 64;
+  std::vector<Vec2> corners;
+  corners.reserve(kCorners);
+  for (int i = 0; i < kCorners; ++i) {
+    corners.emplace_back(area.radii->cwiseProduct(direction(2.0 * kPi * i / kCorners)));
+  }
+  return corners;
+}
+
+double tippingAngle(const ContactArea& area, const Vec3& centre) {
+  const Vec2 c = centre.head<2>();
+  double margin = 0.0;
+  if (area.radii) {
+    // Smooth in the direction's angle: a scan brackets the minimum, golden sections refine it.
+    const auto marginAt = [&](double angle) {
+      return extent(area, direction(angle)) - direction(angle).dot(c);
+    };
+    constexpr int kSamples = 720;
+    const double step = 2.0 * kPi / kSamples;
+    double best = 0.0;
+    for (int i = 1; i < kSamples; ++i) {
+      if (marginAt(i * step) < marginAt(best)) best = i * step;
+    }
+    double low = best - step;
+    double high = best + step;
+    const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
+    while (high - low > 1e-12) {
+      const double p = high - golden * (high - low);
+      const double q = low + golden * (high - low);
+      (marginAt(p) < marginAt(q) ? high : low) = marginAt(p) < marginAt(q) ? q : p;
+    }
+    margin = marginAt(0.5 * (low + high));
+  } else {
+    margin = signedDistance(area.polygon, c);
+  }
+  return std::atan2(margin, centre.z()) * 180.0 / kPi;
+}
+
+} // namespace massprops

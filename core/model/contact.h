@@ -1,0 +1,49 @@
+// Where a body touches the ground, and what that means for tipping over.
+#pragma once
+
+#include "core/base/types.h"
+
+#include <optional>
+#include <vector>
+
+namespace massprops {
+
+/// A convex region of the ground plane, relative to its own centre. Coordinates are the two
+/// horizontal ones of the working frame.
+struct ContactArea {
+  /// Convex polygon, counter-clockwise, at least three corners or none; unused when `radii` is
+  /// given.
+  std::vector<Vec2> polygon;
+  /// Half axes of an ellipse that takes the polygon's place.
+  std::optional<Vec2> radii;
+};
+
+struct GroundContact {
+  Vec3 centre; ///< centroid of the contact polygon; of the contact points if that has no area
+  ContactArea area;
+};
+
+/// All vertices within 1e-4 of the diagonal above the lowest one touch the ground.
+/// `upright`: n×3, up is +z, any unit. `radii`: half axes instead of the polygon, same unit. The
+/// polygon is empty when the contact points span no area.
+GroundContact groundContact(const Points& upright, const std::optional<Vec2>& radii);
+
+/// \throw InvalidInput when there is neither a polygon nor an ellipse
+void requireArea(const ContactArea& area);
+
+/// The area scaled: a corner p becomes p / length.
+ContactArea scaled(const ContactArea& area, double length);
+
+/// Farthest extent of the area in the unit direction `u` (support function), ≥ 0.
+double extent(const ContactArea& area, const Vec2& u);
+
+/// Corners of the area, counter-clockwise; an ellipse by 64 points.
+std::vector<Vec2> outline(const ContactArea& area);
+
+/// Smallest angle, in degrees, by which a body must be tilted until it falls, its centre of mass
+/// being at `centre` above the ground and relative to the area's centre: the minimum over all
+/// horizontal directions u of atan2(extent(u) − u·c, c_z). Negative: it falls by itself.
+/// [PWLSH13, Sec. 4]
+double tippingAngle(const ContactArea& area, const Vec3& centre);
+
+} // namespace massprops

@@ -1,0 +1,121 @@
+#include "core/model/posed_model.h"
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+
+namespace massprops {
+namespace {
+
+/// A wall that common printers print and that carries a hand-sized model.
+constexpr double kDefaultWall = 0.01;
+/// A pivot farther away, in diagonals, is a slip of the pen, and costs digits.
+constexpr double kFarthestPivot = 10.0;
+
+/// Faces in spatial order, vertices in the order in which these use them.
+void arrangeInSpace(const Solid& solid, PosedModel& posed) {
+  const Points working = snapped(toWorking(posed.frame, solid.vertices()));
+  const std::vector<int>& faceOf = solid.spatialFaceOrder();
+  std::vector<int> number(static_cast<std::size_t>(working.rows()), -1);
+  posed.vertexOf.reserve(number.size());
+  posed.faces.resize(solid.faces().rows(), 3);
+  for (Eigen::Index f = 0; f < posed.faces.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const int v = solid.faces()(faceOf[static_cast<std::size_t>(f)], k);
+      int& place = number[static_cast<std::size_t>(v)];
+      if (place < 0) {
+        place = static_cast<int>(posed.vertexOf.size());
+        posed.vertexOf.push_back(v);
+      }
+      posed.faces(f, k) = place;
+    }
+  }
+  if (!solid.isLid().empty()) {
+    for (const int f : faceOf) posed.isLid.push_back(solid.isLid()[static_cast<std::size_t>(f)]);
+    posed.open = openSurface(working.rows(), posed.faces, posed.isLid);
+  }
+  posed.vertices.resize(working.rows(), 3);
+  for (Eigen::Index v = 0; v < working.rows(); ++v) {
+    posed.vertices.row(v) = working.row(posed.vertexOf[static_cast<std::size_t>(v)]);
+  }
+}
+
+Eigen::Index placeOf(Eigen::Index row, const std::vector<int>& places) {
+  const auto n = static_cast<Eigen::Index>(places.size());
+  return row < n ? places[static_cast<std::size_t>(row)]
+                 : n + places[static_cast<std::size_t>(row - n)];
+}
+
+/// Water that gets into the shell sinks it.
+void requireDryOpenings(const PosedModel& posed, double waterLevel) {
+  double lowest = 1.0;
+  for (const int v : posed.open->rim) lowest = std::min(lowest, posed.vertices(v, 2));
+  const double height = posed.vertices.col(2).maxCoeff();
+  if (lowest > waterLevel * height) return;
+  throw InvalidInput("The surface has an opening at " +
+                     std::to_string(static_cast<int>(100.0 * lowest / height)) +
+                     " % of its height, where the water would run in: lower water_level, or close "
+                     "the opening with Remeshing > Close Holes, then run again.");
+}
+
+} // namespace
+
+PosedModel makePosedModel(const Solid& solid, const Options& options) {
+  PosedModel posed;
+  posed.frame.rotation = rotationToUp(options.upAxis);
+  const Points upright = solid.vertices() * posed.frame.rotation.transpose();
+  std::optional<Vec2> radii;
+  if (options.radiusX && options.radiusY) radii = Vec2(*options.radiusX, *options.radiusY);
+  const GroundContact contact = groundContact(upright, radii);
+  if (options.goal == GoalKind::Stand || options.goal == GoalKind::StandEmptyAndFilled) {
+    requireArea(contact.area);
+  }
+  posed.frame.origin = posed.frame.rotation.transpose() * contact.centre;
+  posed.frame.length = solid.diagonal();
+  posed.contact = scaled(contact.area, solid.diagonal());
+  posed.wall = options.innerLowerBound.value_or(kDefaultWall * solid.diagonal()) / solid.diagonal();
+  if (options.pivot) {
+    posed.pivot = toWorking(posed.frame, Points(options.pivot->transpose())).row(0).transpose();
+    if (posed.pivot->norm() > kFarthestPivot) {
+      throw InvalidInput("The pivot lies more than " + std::to_string(int(kFarthestPivot)) +
+                         " times the model's diagonal away from the model: give pivot_x, pivot_y "
+                         "and pivot_z in the coordinates of the scene.");
+    }
+  }
+  arrangeInSpace(solid, posed);
+  if (posed.open && options.goal == GoalKind::Float) requireDryOpenings(posed, options.waterLevel);
+  posed.cavities = solid.cavities();
+  posed.cavities.vertices = toWorking(posed.frame, solid.cavities().vertices);
+  return posed;
+}
+
+std::vector<int> placesInSolid(const PosedModel& posed, const std::vector<int>& vertices) {
+  const auto inSolid = [&](int v) {
+    return static_cast<std::size_t>(posed.vertexOf[static_cast<std::size_t>(v)]);
+  };
+  std::vector<int> place(posed.vertexOf.size(), 0);
+  for (const int v : vertices) place[inSolid(v)] = 1;
+  std::exclusive_scan(place.begin(), place.end(), place.begin(), 0);
+  std::vector<int> places;
+  places.reserve(vertices.size());
+  for (const int v : vertices) places.push_back(place[inSolid(v)]);
+  return places;
+}
+
+Points placed(const Points& values, const std::vector<int>& places) {
+  Points result(values.rows(), 3);
+  for (Eigen::Index v = 0; v < values.rows(); ++v) result.row(placeOf(v, places)) = values.row(v);
+  return result;
+}
+
+Vector placed(const Vector& values, const std::vector<int>& places) {
+  Vector result(values.size());
+  for (Eigen::Index v = 0; v < values.size(); ++v) result[placeOf(v, places)] = values[v];
+  return result;
+}
+
+Faces placed(const Faces& faces, const std::vector<int>& places) {
+  return faces.unaryExpr([&](int v) { return static_cast<int>(placeOf(v, places)); });
+}
+
+} // namespace massprops

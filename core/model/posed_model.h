@@ -1,0 +1,45 @@
+// The model in the working frame, standing on its contact area.
+#pragma once
+
+#include "core/base/options.h"
+#include "core/model/contact.h"
+#include "core/model/frame.h"
+#include "core/model/open_surface.h"
+#include "core/model/solid.h"
+
+#include <vector>
+
+namespace massprops {
+
+struct PosedModel {
+  Frame frame;
+  /// n×3, working frame, in the order in which the faces use them: what is near in space is near in
+  /// memory.
+  Points vertices;
+  Faces faces; ///< outward, in spatial order (triangle_tree.h)
+  /// Of an open surface, whose openings have lids among the faces.
+  std::optional<OpenSurface> open;
+  std::vector<char> isLid; ///< for every face; empty for a closed surface
+  /// For every vertex its number in the solid.
+  std::vector<int> vertexOf;
+  /// Existing cavities, working frame, oriented into them. The new cavity takes their place.
+  TriangleMesh cavities;
+  ContactArea contact; ///< working lengths
+  double wall = 0.0;   ///< working length
+  /// That the user gave, working frame.
+  std::optional<Vec3> pivot;
+};
+
+/// \throw InvalidInput when a goal that needs a contact area has none, the pivot lies far away, or
+/// an opening lies below the wished waterline
+PosedModel makePosedModel(const Solid& solid, const Options& options);
+
+/// For each of these vertices of the piece its place when they come in the solid's order.
+std::vector<int> placesInSolid(const PosedModel& posed, const std::vector<int>& vertices);
+
+/// Rows, or the rows that faces refer to, at their places; of 2n rows both halves alike.
+Points placed(const Points& values, const std::vector<int>& places);
+Vector placed(const Vector& values, const std::vector<int>& places);
+Faces placed(const Faces& faces, const std::vector<int>& places);
+
+} // namespace massprops

@@ -1,0 +1,284 @@
+#include "core/model/solid.h"
+
+#include "core/base/parallel.h"
+#include "core/mesh/components.h"
+#include "core/mesh/connectivity.h"
+#include "core/mesh/degenerate_faces.h"
+#include "core/mesh/hole_filling.h"
+#include "core/mesh/signed_volume.h"
+#include "core/model/frame.h"
+#include "core/query/nesting.h"
+#include "core/query/self_intersection.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace massprops {
+namespace {
+
+std::string count(std::size_t n, const std::string& singular, const std::string& plural) {
+  return std::to_string(n) + " " + (n == 1 ? singular : plural);
+}
+
+void requireFiniteTriangles(const TriangleMesh& mesh) {
+  if (mesh.faces.rows() == 0) {
+    throw InvalidInput(mesh.vertices.rows() == 0
+                           ? "The layer is empty: open a model with faces, then run again."
+                           : "The layer has points but no faces: use Remeshing > Surface "
+                             "Reconstruction: Screened Poisson to make a closed surface, then run "
+                             "again.");
+  }
+  if (!mesh.vertices.allFinite()) {
+    throw InvalidInput("The layer has vertices whose coordinates are not finite numbers: use "
+                       "Cleaning and Repairing > Remove Vertices wrt Quality or select and delete "
+                       "them, then run again.");
+  }
+  if (mesh.faces.minCoeff() < 0 || mesh.faces.maxCoeff() >= mesh.vertices.rows()) {
+    throw InvalidInput("The layer has faces that refer to vertices which do not exist: save and "
+                       "open it again, then run again.");
+  }
+}
+
+/// Returns the number of boundary edges, of which there may be some where openings are allowed.
+std::size_t requireManifoldEdges(const TriangleMesh& mesh, bool mayBeOpen) {
+  const auto [boundary, nonManifold, incoherent] = countEdges(mesh.vertices.rows(), mesh.faces);
+  if (nonManifold > 0) {
+    throw InvalidInput("The surface has " +
+                       count(nonManifold, "non-manifold edge", "non-manifold edges") +
+                       " where more than two faces meet: use Cleaning and Repairing > Repair non "
+                       "Manifold Edges, then run again.");
+  }
+  if (boundary > 0 && !mayBeOpen) {
+    throw InvalidInput("The surface is open along " +
+                       count(boundary, "boundary edge", "boundary edges") +
+                       ": use Remeshing > Close Holes (Cleaning and Repairing > Merge Close "
+                       "Vertices first, if parts only seem joined), or switch open_surface on if "
+                       "it is to become a shell with these openings, then run again.");
+  }
+  if (incoherent > 0) {
+    throw InvalidInput("The faces on the two sides of " + count(incoherent, "edge", "edges") +
+                       " are oriented against each other: use Normals > Re-Orient all faces, "
+                       "then run again.");
+  }
+  return boundary;
+}
+
+void requireManifoldVertices(const TriangleMesh& mesh) {
+  // Turning round a vertex from one face to the next, from a boundary if there is one, must lead
+  // through all of its faces.
+  const VertexCorners corners = vertexCorners(mesh.vertices.rows(), mesh.faces);
+  const std::vector<int> opposite = oppositeHalfEdges(corners, mesh.faces);
+  std::atomic<std::size_t> bad = 0;
+  constexpr Eigen::Index kChunk = 4096;
+  forChunks(mesh.vertices.rows(), kChunk, [&](const Chunk& chunk) {
+    for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
+      const IndexRange all = corners.at(v);
+      if (all.size() == 0) continue;
+      const int* const boundary = std::find_if(all.begin(), all.end(), [&](int corner) {
+        return opposite[static_cast<std::size_t>(corner)] < 0;
+      });
+      const int first = boundary != all.end() ? *boundary : *all.begin();
+      std::size_t turned = 0;
+      int corner = first;
+      do {
+        ++turned;
+        corner = opposite[static_cast<std::size_t>(previousHalfEdge(corner))];
+      } while (corner >= 0 && corner != first && turned <= all.size());
+      if (turned != all.size()) ++bad;
+    }
+  });
+  if (bad > 0) {
+    throw InvalidInput("The surface touches itself at " +
+                       count(bad, "non-manifold vertex", "non-manifold vertices") +
+                       ": use Cleaning and Repairing > Repair non Manifold Vertices by splitting, "
+                       "then run again.");
+  }
+}
+
+std::vector<int> orderInSpace(const Points& vertices, const Faces& faces, const Mat3& rotation,
+                              double diagonal) {
+  const Points turned = vertices * rotation.transpose();
+  const Eigen::RowVector3d corner = turned.colwise().minCoeff();
+  return spatialOrder(snapped((turned.rowwise() - corner) / diagonal), faces);
+}
+
+/// `skinFaces`: those before the lids.
+void requireNoSelfIntersection(const Points& vertices, const Faces& faces,
+                               const std::vector<int>& spatialFaceOrder, Eigen::Index skinFaces) {
+  const std::vector<int> crossingFaces = selfIntersectingFaces(
+      TriangleTree(vertices, faces, spatialFaceOrder, TriangleTree::Queries::NoDistances));
+  const std::size_t crossing = crossingFaces.size();
+  if (crossing > 0 && crossingFaces.back() >= skinFaces) {
+    throw InvalidInput(
+        "A lid that closes an opening of the surface, which open_surface needs for "
+        "its own reckoning, crosses the surface: close the opening with Remeshing > "
+        "Close Holes, or cut the model where its openings are flat, then run again.");
+  }
+  if (crossing > 0) {
+    throw InvalidInput("The surface crosses itself: " + count(crossing, "face", "faces") +
+                       " intersect others. Use Selection > Select Self Intersecting Faces, delete "
+                       "them and use Remeshing > Close Holes, then run again; parts that overlap "
+                       "are joined by Mesh Boolean: Union.");
+  }
+}
+
+/// Removing flat faces may bring parts together that only lay on each other.
+RepairedMesh withoutFlatFaces(RepairedMesh mesh) {
+  const int before = mesh.repairs.zeroAreaFaces;
+  const Eigen::Index facesBefore = mesh.mesh.faces.rows();
+  mesh = withoutZeroAreaFaces(std::move(mesh));
+  const int removed = mesh.repairs.zeroAreaFaces - before;
+  if (removed == 0 && mesh.mesh.faces.rows() == facesBefore) return mesh;
+  try {
+    requireManifoldEdges(mesh.mesh, false);
+    requireManifoldVertices(mesh.mesh);
+  } catch (const InvalidInput&) {
+    throw InvalidInput("The surface has " +
+                       count(static_cast<std::size_t>(removed), "face", "faces") +
+                       " without area that cannot be removed without making it non-manifold: use "
+                       "Cleaning and Repairing > Remove T-Vertices by Edge Flip, then run again.");
+  }
+  return mesh;
+}
+
+/// Removing them as on a closed surface would move the openings.
+void requireNoFlatFaces(const TriangleMesh& open) {
+  const std::size_t flat = facesWithoutArea(open.vertices, open.faces).size();
+  if (flat == 0) return;
+  throw InvalidInput("The open surface has " + count(flat, "face", "faces") +
+                     " without area: use Cleaning and Repairing > Remove T-Vertices by Edge Flip, "
+                     "then run again.");
+}
+
+/// For every face of the part whether it is one of the lids, whose corners are numbered as in the
+/// whole mesh.
+std::vector<char> marksOf(const Submesh& part, const Faces& lids) {
+  const auto corners = [](int a, int b, int c) {
+    std::array<int, 3> sorted{a, b, c};
+    std::sort(sorted.begin(), sorted.end());
+    return sorted;
+  };
+  std::vector<std::array<int, 3>> known;
+  for (Eigen::Index f = 0; f < lids.rows(); ++f) {
+    known.push_back(corners(lids(f, 0), lids(f, 1), lids(f, 2)));
+  }
+  std::sort(known.begin(), known.end());
+  std::vector<char> marks;
+  for (Eigen::Index f = 0; f < part.mesh.faces.rows(); ++f) {
+    const auto whole = [&](int k) {
+      return part.vertexOf[static_cast<std::size_t>(part.mesh.faces(f, k))];
+    };
+    const bool isLid =
+        std::binary_search(known.begin(), known.end(), corners(whole(0), whole(1), whole(2)));
+    marks.push_back(isLid ? 1 : 0);
+  }
+  return marks;
+}
+
+Faces stacked(const std::vector<Faces>& parts) {
+  Eigen::Index rows = 0;
+  for (const Faces& part : parts) rows += part.rows();
+  Faces result(rows, 3);
+  rows = 0;
+  for (const Faces& part : parts) {
+    result.middleRows(rows, part.rows()) = part;
+    rows += part.rows();
+  }
+  return result;
+}
+
+} // namespace
+
+Solid makeSolid(const TriangleMesh& input, bool closeOpenings, const Mat3& rotation,
+                CrossingCheck check) {
+  requireFiniteTriangles(input);
+  RepairedMesh repaired = mergedAndCompacted(input);
+  if (repaired.mesh.faces.rows() == 0) {
+    throw InvalidInput("The layer has only faces without area: open a model that is a solid body.");
+  }
+  const std::size_t boundary = requireManifoldEdges(repaired.mesh, closeOpenings);
+  requireManifoldVertices(repaired.mesh);
+  const Eigen::Index skinFaces = repaired.mesh.faces.rows();
+  if (boundary > 0) {
+    requireNoFlatFaces(repaired.mesh);
+    repaired.mesh = withOpeningsFilled(repaired.mesh);
+  } else {
+    repaired = withoutFlatFaces(std::move(repaired));
+  }
+  const TriangleMesh& mesh = repaired.mesh;
+  if (mesh.faces.rows() == 0) {
+    throw InvalidInput("The surface encloses no volume: open a model that is a solid body.");
+  }
+
+  Solid solid;
+  solid.repairs_ = repaired.repairs;
+  const Eigen::RowVector3d extent =
+      mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff();
+  solid.diagonal_ = extent.norm();
+  const double roundOff = 1e-12 * std::pow(solid.diagonal_, 3);
+  Components components;
+  inParallel([&] { components = connectedComponents(mesh.vertices.rows(), mesh.faces); },
+             [&] {
+               solid.spatialFaceOrder_ =
+                   orderInSpace(mesh.vertices, mesh.faces, rotation, solid.diagonal_);
+             });
+  std::vector<double> volumes;
+  for (const Faces& component : components) {
+    volumes.push_back(signedVolume(mesh.vertices, component));
+    if (!(std::abs(volumes.back()) > roundOff)) {
+      throw InvalidInput("The surface, or a component of it, encloses no volume: use Cleaning and "
+                         "Repairing > Remove Isolated pieces (wrt Diameter), or open a model that "
+                         "is a solid body.");
+    }
+  }
+  // Which component is inside of which one is known only where they do not cross.
+  solid.mayCross_ = check == CrossingCheck::Later && boundary == 0 && components.size() == 1;
+  if (!solid.mayCross_) {
+    requireNoSelfIntersection(mesh.vertices, mesh.faces, solid.spatialFaceOrder_,
+                              boundary > 0 ? skinFaces : mesh.faces.rows());
+  }
+  const std::vector<int> depths = nestingDepths(mesh.vertices, components);
+  std::vector<Faces> bodies;
+  std::vector<Faces> cavities;
+  for (std::size_t c = 0; c < components.size(); ++c) {
+    if (depths[c] > 1) {
+      throw InvalidInput("A part of the model lies loose inside of a cavity of another one: remove "
+                         "it (Mesh Layer > Split in Connected Components), then run again.");
+    }
+    const bool isCavity = depths[c] == 1;
+    if (isCavity && boundary > 0) {
+      throw InvalidInput("A part of the open surface lies inside of another one: remove it (Mesh "
+                         "Layer > Split in Connected Components), then run again.");
+    }
+    if ((volumes[c] < 0.0) != isCavity) {
+      flip(components[c]);
+      ++solid.repairs_.flippedComponents;
+    }
+    (isCavity ? cavities : bodies).push_back(components[c]);
+  }
+  solid.repairs_.replacedCavities = static_cast<int>(cavities.size());
+  const Submesh body = submesh(mesh.vertices, stacked(bodies));
+  if (boundary > 0)
+    solid.isLid_ = marksOf(body, mesh.faces.bottomRows(mesh.faces.rows() - skinFaces));
+  solid.mesh_ = body.mesh;
+  if (components.size() > 1) {
+    // Their faces were renumbered, and cavities must not show.
+    solid.spatialFaceOrder_ =
+        orderInSpace(body.mesh.vertices, body.mesh.faces, rotation, solid.diagonal_);
+  }
+  solid.cavities_ = submesh(mesh.vertices, stacked(cavities)).mesh;
+  return solid;
+}
+
+void requireNoCrossings(const Solid& solid) {
+  if (!solid.mayCross_) return;
+  requireNoSelfIntersection(solid.vertices(), solid.faces(), solid.spatialFaceOrder_,
+                            solid.faces().rows());
+}
+
+} // namespace massprops

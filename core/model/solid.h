@@ -1,0 +1,58 @@
+// A surface that is known to bound a solid: validated once, so later stages need no checks.
+#pragma once
+
+#include "core/base/types.h"
+#include "core/model/repair.h"
+
+#include <vector>
+
+namespace massprops {
+
+/// Looking for crossings is most of the work of `makeSolid`. `Later`: a single closed surface is
+/// left to `requireNoCrossings`, which may run beside the first stages that use the solid.
+enum class CrossingCheck { Now, Later };
+
+/// One or more disjoint bodies, each bounded by a closed 2-manifold of its own with triangles
+/// counter-clockwise seen from outside; no crossings (but see `CrossingCheck`), every vertex used,
+/// positive volume. Only `makeSolid` makes one.
+class Solid {
+public:
+  const Points& vertices() const { return mesh_.vertices; }
+  const Faces& faces() const { return mesh_.faces; }
+  /// Surfaces of cavities that the model has already, oriented into them; often empty.
+  const TriangleMesh& cavities() const { return cavities_; }
+  /// Length of the bounding box's diagonal.
+  double diagonal() const { return diagonal_; }
+  const Repairs& repairs() const { return repairs_; }
+  /// For every face whether it is one of a lid that closes an opening of the input; empty when the
+  /// input was closed.
+  const std::vector<char>& isLid() const { return isLid_; }
+  /// The faces' numbers in the order of `spatialOrder`, seen in the turned frame.
+  const std::vector<int>& spatialFaceOrder() const { return spatialFaceOrder_; }
+
+private:
+  friend Solid makeSolid(const TriangleMesh& input, bool closeOpenings, const Mat3& rotation,
+                         CrossingCheck check);
+  friend void requireNoCrossings(const Solid& solid);
+  TriangleMesh mesh_;
+  TriangleMesh cavities_;
+  double diagonal_ = 0.0;
+  Repairs repairs_;
+  std::vector<char> isLid_;
+  std::vector<int> spatialFaceOrder_;
+  bool mayCross_ = false;
+};
+
+/// Mends what `repair.h` mends, turns components round that face the wrong way throughout, and sets
+/// components that lie inside of another one aside as existing cavities.
+/// `closeOpenings`: boundary loops get lids (lids.h); otherwise an open surface is refused.
+/// `rotation`: of the frame in which `spatialFaceOrder` is the same for a model that is turned.
+/// \throw InvalidInput with the number of defects and the MeshLab filter that mends them
+Solid makeSolid(const TriangleMesh& input, bool closeOpenings = false,
+                const Mat3& rotation = Mat3::Identity(), CrossingCheck check = CrossingCheck::Now);
+
+/// Does what `makeSolid` has left for later, if anything.
+/// \throw InvalidInput as `makeSolid` would have
+void requireNoCrossings(const Solid& solid);
+
+} // namespace massprops

@@ -1,0 +1,49 @@
+// The best that any cavity could do: what is reached is measured against it.
+#pragma once
+
+#include "core/goals/goals.h"
+#include "core/query/triangle_tree.h"
+
+#include <optional>
+
+namespace massprops {
+
+/// What may be hollow: the points of the body that are at least a wall away from its surface, in
+/// small cells. c×10, a row a cell: the integrals of (1, x, y, z, xx, yy, zz, xy, yz, zx) over the
+/// part of it that may be hollow. Working frame.
+using AdmissibleCells = Eigen::Matrix<double, Eigen::Dynamic, 10, Eigen::RowMajor>;
+
+/// Cubes, about `cells` of them in the model's bounding box. Those at the border of the region are
+/// divided once more, and the border is taken as a plane in each part: the region comes out too
+/// large at its edges, if anything, never too small.
+/// \pre the surface is closed and outward
+AdmissibleCells admissibleCells(const TriangleTree& surface, double wall, int cells = 20000);
+
+/// A body hollowed where a quadric is positive, the shape of the best cavity for every goal that
+/// depends on mass moments alone: a plane's side for those without inertia. [HLW24, Sec. 4; docs/
+/// math.md "The limit"]
+struct OptimalBound {
+  /// Known this exactly: a lower violation counts as none.
+  static constexpr double kReachable = 1e-4;
+
+  Moments massMoments = Moments::Zero();
+  double objective = 0.0; ///< terms 1, 2, 3 and 5
+  double violation =
+      0.0; ///< largest of the goal's constraints; > 0: no cavity was found to hold all
+  /// Where the constraints cannot be kept and the verdict is one number: the body with the best.
+  std::optional<Moments> bestVerdict;
+  /// (1, x, y, z, xx, yy, zz, xy, yz, zx)·quadric > 0 where the body is hollow.
+  Moments quadric = Moments::Zero();
+};
+
+/// The best hollow body within the cells, of which there must be one. `solid`: moments of the body
+/// without a cavity, density 1; `fillDensity`: as a multiple of the material's.
+OptimalBound optimalBound(const Goal& goal, const Weights& weights, const Moments& solid,
+                          double fillDensity, const AdmissibleCells& cells);
+
+/// Offsets with which the inner surface comes nearest to the limit's cavity: every point goes in
+/// until the quadric is positive, as far as its bounds allow. n lengths.
+Vector offsetsTowards(const OptimalBound& limit, const Points& vertices, const Points& directions,
+                      const Vector& lower, const Vector& upper);
+
+} // namespace massprops

@@ -1,0 +1,206 @@
+#include "core/physics/hydrostatics.h"
+
+#include "core/physics/moments.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace massprops {
+namespace {
+
+/// A body whose weight is within this share of the displaced water's is neutral under water.
+constexpr double kNeutral = 1e-4;
+/// Sine of the heel at which the righting arm counts as nothing, and of the push off an unstable
+/// equilibrium.
+constexpr double kLevelled = 1e-10;
+constexpr double kPush = 1e-3;
+constexpr double kMostTurn = 0.2; // radians a step
+
+/// A frame whose third row is `up`.
+Mat3 frameOf(const Vec3& up) {
+  Mat3 rows;
+  rows.row(2) = up.transpose();
+  rows.row(0) = up.unitOrthogonal().transpose();
+  rows.row(1) = up.cross(rows.row(0).transpose()).transpose();
+  return rows;
+}
+
+/// Sums over the wet part of the surface, in a frame with the water's surface at z = 0.
+class WetSurface {
+public:
+  void add(const Vec3& a, const Vec3& b, const Vec3& c) {
+    // Tetrahedra to the origin, which lies on the waterplane, so that the plane adds nothing.
+    const double D = a.dot((b - a).cross(c - a));
+    const Vec3 s = a + b + c;
+    volume += D / 6.0;
+    first += D / 24.0 * s;
+    // ∫q dA over the waterplane = −∫q n_z dA over the wet surface, for q does not depend on z.
+    const Vec2 p = a.head<2>();
+    const Vec2 q = b.head<2>();
+    const Vec2 r = c.head<2>();
+    const Vec2 sum = p + q + r;
+    const double twice = (q.x() - p.x()) * (r.y() - p.y()) - (q.y() - p.y()) * (r.x() - p.x());
+    area -= twice / 2.0;
+    areaFirst -= twice / 6.0 * sum;
+    areaSecond -=
+        twice / 24.0 *
+        (sum * sum.transpose() + p * p.transpose() + q * q.transpose() + r * r.transpose());
+  }
+
+  double volume = 0.0;
+  Vec3 first = Vec3::Zero();
+  double area = 0.0;
+  Vec2 areaFirst = Vec2::Zero();
+  Eigen::Matrix2d areaSecond = Eigen::Matrix2d::Zero();
+};
+
+} // namespace
+
+Displacement displacement(const Points& vertices, const Faces& faces, const Vec3& up,
+                          double level) {
+  const Mat3 frame = frameOf(up);
+  // Near the body, lest the integrals cancel.
+  const Vec3 mean = vertices.colwise().mean().transpose();
+  const Vec3 origin = mean + (level - up.dot(mean)) * up;
+  const Points x = (vertices.rowwise() - origin.transpose()) * frame.transpose();
+  WetSurface wet;
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    std::array<Vec3, 4> part;
+    std::size_t corners = 0;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 p = x.row(faces(f, k)).transpose();
+      const Vec3 q = x.row(faces(f, (k + 1) % 3)).transpose();
+      if (p.z() <= 0.0) part[corners++] = p;
+      if ((p.z() <= 0.0) == (q.z() <= 0.0)) continue;
+      // From the lower end, so that both triangles at the edge get the same point.
+      const Vec3& low = p.z() <= 0.0 ? p : q;
+      const Vec3& high = p.z() <= 0.0 ? q : p;
+      Vec3 cut = low + low.z() / (low.z() - high.z()) * (high - low);
+      cut.z() = 0.0;
+      part[corners++] = cut;
+    }
+    for (std::size_t k = 2; k < corners; ++k) wet.add(part[0], part[k - 1], part[k]);
+  }
+  Displacement result;
+  result.volume = wet.volume;
+  result.centre = origin;
+  if (wet.volume > 0.0) result.centre += frame.transpose() * (wet.first / wet.volume);
+  result.waterplaneArea = std::max(0.0, wet.area);
+  if (wet.area > 0.0) {
+    Mat3 moment = Mat3::Zero();
+    moment.topLeftCorner<2, 2>() =
+        wet.areaSecond - wet.areaFirst * wet.areaFirst.transpose() / wet.area;
+    result.waterplaneMoment = frame.transpose() * moment * frame;
+  }
+  return result;
+}
+
+std::vector<std::pair<Vec3, Vec3>> levelLines(const Points& vertices, const Faces& faces,
+                                              const Vec3& up, double level) {
+  const Vector heights = (vertices * up).array() - level;
+  std::vector<std::pair<Vec3, Vec3>> lines;
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    std::array<Vec3, 2> ends;
+    std::size_t found = 0;
+    for (int k = 0; k < 3; ++k) {
+      const int p = faces(f, k);
+      const int q = faces(f, (k + 1) % 3);
+      if ((heights[p] <= 0.0) == (heights[q] <= 0.0)) continue;
+      const double share = heights[p] / (heights[p] - heights[q]);
+      ends[found++] = ((1.0 - share) * vertices.row(p) + share * vertices.row(q)).transpose();
+    }
+    if (found == 2) lines.emplace_back(ends[0], ends[1]);
+  }
+  return lines;
+}
+
+double levelFor(const Points& vertices, const Faces& faces, const Vec3& up, double volume) {
+  const Vector heights = vertices * up;
+  double low = heights.minCoeff();
+  double high = heights.maxCoeff();
+  const double tolerance = 1e-13 * (high - low);
+  double level = 0.5 * (low + high);
+  constexpr int kMostSteps = 100;
+  for (int step = 0; step < kMostSteps && high - low > tolerance; ++step) {
+    const Displacement d = displacement(vertices, faces, up, level);
+    (d.volume < volume ? low : high) = level;
+    // dV/dlevel is the waterplane's area: Newton, or halves where that leaves the bracket.
+    const double newton = level + (volume - d.volume) / d.waterplaneArea;
+    const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
+    if (std::abs(next - level) <= tolerance) return next;
+    level = next;
+  }
+  return level;
+}
+
+FloatingPose floatingPose(const Points& vertices, const Faces& faces, const Vec3& centre,
+                          double displaced) {
+  const Moments whole = moments(vertices, faces);
+  FloatingPose pose;
+  if (displaced > (1.0 - kNeutral) * whole[0]) {
+    // Under water the centre of buoyancy hangs above the centre of mass.
+    const Vec3 arm = whole.segment<3>(1) / whole[0] - centre;
+    pose.submerged = true;
+    pose.floats = displaced < (1.0 + kNeutral) * whole[0];
+    if (arm.norm() > 0.0) pose.up = arm.normalized();
+    pose.leastMetacentricHeight = pose.greatestMetacentricHeight = arm.norm();
+    const Vector heights = vertices * pose.up;
+    pose.draught = heights.maxCoeff() - heights.minCoeff();
+    return pose;
+  }
+  pose.floats = true;
+
+  // The potential energy over the weight is U = (c − B)·up at constant displacement; along unit
+  // tangents t, dU = (c − B)·t and d²U = tᵀJt/V − (c − B)·up, which is the metacentric height.
+  struct State {
+    Displacement d;
+    double level, energy;
+  };
+  const auto at = [&](const Vec3& up) {
+    const double level = levelFor(vertices, faces, up, displaced);
+    const Displacement d = displacement(vertices, faces, up, level);
+    return State{d, level, (centre - d.centre).dot(up)};
+  };
+  State state = at(pose.up);
+  constexpr int kMostSteps = 200;
+  for (int step = 0;; ++step) {
+    const Mat3 frame = frameOf(pose.up);
+    const Vec2 gradient = (frame * (centre - state.d.centre)).head<2>();
+    const Eigen::Matrix2d hessian =
+        (frame * state.d.waterplaneMoment * frame.transpose()).topLeftCorner<2, 2>() / displaced -
+        state.energy * Eigen::Matrix2d::Identity();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(hessian);
+    pose.leastMetacentricHeight = axes.eigenvalues()[0];
+    pose.greatestMetacentricHeight = axes.eigenvalues()[1];
+    if (step == kMostSteps) break;
+
+    Vec2 turn;
+    if (gradient.norm() < kLevelled) {
+      if (axes.eigenvalues()[0] >= 0.0) break;
+      turn = kPush * axes.eigenvectors().col(0);
+    } else {
+      // Newton's step with the curvatures made positive always leads down.
+      const Vec2 along = axes.eigenvectors().transpose() * gradient;
+      const Vec2 curvature = axes.eigenvalues().cwiseAbs().cwiseMax(1e-6);
+      turn = -axes.eigenvectors() * along.cwiseQuotient(curvature);
+    }
+    if (turn.norm() > kMostTurn) turn *= kMostTurn / turn.norm();
+    bool descended = false;
+    for (int halving = 0; halving < 30 && !descended; ++halving, turn *= 0.5) {
+      const Vec3 up = (pose.up + frame.topRows<2>().transpose() * turn).normalized();
+      const State next = at(up);
+      if (next.energy >= state.energy) continue;
+      state = next;
+      pose.up = up;
+      descended = true;
+    }
+    if (!descended) break;
+  }
+  pose.draught = state.level - (vertices * pose.up).minCoeff();
+  return pose;
+}
+
+} // namespace massprops

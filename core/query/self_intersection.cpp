@@ -1,0 +1,368 @@
+#include "core/query/self_intersection.h"
+
+#include "core/base/parallel.h"
+#include "core/mesh/connectivity.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace massprops {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+/// Triangles that are looked at together.
+constexpr Eigen::Index kBlock = 32;
+/// Around a block, in edges: neighbours whose boxes meet those of the block belong to its patch,
+/// too, and need not be compared.
+constexpr double kMargin = 0.25;
+/// Each has an array over all faces, so that there are to be few.
+constexpr Eigen::Index kMostChunks = 16;
+/// Share of the product of two lengths: far above the rounding of a determinant.
+constexpr double kSafe = 1e-11;
+
+struct Normal {
+  Vec3 vector;   ///< (b − a) × (c − a)
+  double length; ///< product of the lengths of both edges, the scale of the vector's rounding
+};
+
+/// Looks for crossings of one surface with itself.
+class SelfIntersections {
+public:
+  explicit SelfIntersections(const TriangleTree& surface)
+      : x_(surface.vertices()), faces_(surface.faces()), tree_(surface),
+        corners_(vertexCorners(x_.rows(), faces_)), opposite_(oppositeHalfEdges(corners_, faces_)),
+        isEmbedded_(static_cast<std::size_t>(x_.rows())) {}
+
+  std::vector<int> find() {
+    findEmbeddedFans();
+    const Eigen::Index blocks = chunkCount(faces_.rows(), kBlock);
+    const Eigen::Index length = std::max<Eigen::Index>(16, chunkCount(blocks, kMostChunks));
+    std::vector<std::vector<int>> found(static_cast<std::size_t>(chunkCount(blocks, length)));
+    forChunks(blocks, length, [&](const Chunk& chunk) {
+      Patches patches;
+      patches.of.assign(static_cast<std::size_t>(faces_.rows()), 0);
+      for (Eigen::Index b = chunk.begin; b < chunk.end; ++b) {
+        searchBlock(b, patches, found[static_cast<std::size_t>(chunk.number)]);
+      }
+    });
+    std::vector<int> all;
+    for (const std::vector<int>& part : found) all.insert(all.end(), part.begin(), part.end());
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
+  }
+
+private:
+  /// For every face the number of the patch around the present block that it belongs to; numbers
+  /// of former blocks are smaller than `first`.
+  struct Patches {
+    std::vector<int> of;
+    int first = 1;
+    int next = 1;
+    std::vector<int> queue, doubtful;
+  };
+
+  static std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
+  Vec3 point(int v) const { return x_.row(v).transpose(); }
+
+  Normal normal(Eigen::Index f) const {
+    const Vec3 a = point(faces_(f, 0));
+    const Vec3 ab = point(faces_(f, 1)) - a;
+    const Vec3 ac = point(faces_(f, 2)) - a;
+    return {ab.cross(ac), std::sqrt(ab.squaredNorm() * ac.squaredNorm())};
+  }
+
+  using Box = Eigen::AlignedBox3d;
+
+  Box boxOf(int f) const {
+    Box box;
+    for (const int v : faces_.row(f)) box.extend(point(v));
+    return box;
+  }
+
+  static bool facesTowards(const Normal& n, const Vec3& unit) {
+    return n.vector.dot(unit) > kSafe * n.length;
+  }
+
+  /// A vertex's fan is embedded when all its triangles face one direction and go round it once,
+  /// seen from there.
+  void findEmbeddedFans() {
+    constexpr Eigen::Index kChunk = 4096;
+    forChunks(x_.rows(), kChunk, [&](const Chunk& chunk) {
+      std::vector<Normal> normals;
+      for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
+        normals.clear();
+        Vec3 axis = Vec3::Zero();
+        for (const int corner : corners_.at(v)) {
+          normals.push_back(normal(corner / 3));
+          const double length = normals.back().vector.norm();
+          if (length > 0.0) axis += normals.back().vector / length;
+        }
+        axis.normalize();
+        isEmbedded_[at(v)] = 0;
+        if (!std::all_of(normals.begin(), normals.end(),
+                         [&](const Normal& n) { return facesTowards(n, axis); })) {
+          continue;
+        }
+        // In projection every triangle turns to the left by less than half a turn: the link passes
+        // from below to above a line through the vertex, on its right, once a turn.
+        const Vec3 across = axis.unitOrthogonal();
+        int turns = 0;
+        bool isClosed = true;
+        for (const int corner : corners_.at(v)) {
+          isClosed = isClosed && opposite_[at(corner)] >= 0;
+          const Vec3 from = point(faces_.data()[nextHalfEdge(corner)]) - point(static_cast<int>(v));
+          const Vec3 to =
+              point(faces_.data()[previousHalfEdge(corner)]) - point(static_cast<int>(v));
+          if (from.dot(across) < 0.0 && to.dot(across) >= 0.0) ++turns;
+        }
+        isEmbedded_[at(v)] = isClosed && turns == 1 ? 1 : 0;
+      }
+    });
+  }
+
+  /// A rectangle across `axis`, a little larger and a little smaller than it is.
+  struct Window {
+    Vec3 axis, u, w;
+    Vec2 lower, upper;
+    double slack;
+
+    Vec2 project(const Vec3& p) const { return {u.dot(p), w.dot(p)}; }
+    bool contains(const Vec2& p) const {
+      return p.x() > lower.x() + slack && p.x() < upper.x() - slack && p.y() > lower.y() + slack &&
+             p.y() < upper.y() - slack;
+    }
+    bool mayMeet(const Vec2& p, const Vec2& q) const {
+      return std::max(p.x(), q.x()) > lower.x() - slack &&
+             std::min(p.x(), q.x()) < upper.x() + slack &&
+             std::max(p.y(), q.y()) > lower.y() - slack &&
+             std::min(p.y(), q.y()) < upper.y() + slack;
+    }
+  };
+
+  /// The faces that are connected within the cylinder over the window with face `seed`, if all of
+  /// them face its axis and their vertices have embedded fans: then the projection of what is in
+  /// the cylinder is a covering of the window, hence one-to-one. They get the number
+  /// `patches.next`.
+  bool growPatch(int seed, const Window& window, Patches& patches) const {
+    const int number = patches.next;
+    std::vector<int>& queue = patches.queue;
+    queue.assign(1, seed);
+    patches.doubtful.clear();
+    patches.of[at(seed)] = number;
+    bool isGraph = true;
+    std::size_t certain = 0; // faces before this one were surely reached within the cylinder
+    for (std::size_t i = 0; i < queue.size() && isGraph; ++i) {
+      const int f = queue[i];
+      isGraph = facesTowards(normal(f), window.axis);
+      Vec2 p[3];
+      bool in[3];
+      for (int k = 0; k < 3; ++k) {
+        p[k] = window.project(point(faces_(f, k)));
+        in[k] = window.contains(p[k]);
+        if (window.mayMeet(p[k], p[k]) && isEmbedded_[at(faces_(f, k))] == 0) isGraph = false;
+      }
+      for (int k = 0; k < 3; ++k) {
+        const int n = (k + 1) % 3;
+        if (!window.mayMeet(p[k], p[n])) continue;
+        const int across = opposite_[at(3 * f + k)];
+        if (across < 0) {
+          isGraph = false;
+          break;
+        }
+        if (patches.of[at(across / 3)] == number) continue;
+        if (in[k] || in[n]) {
+          patches.of[at(across / 3)] = number;
+          queue.push_back(across / 3);
+        } else {
+          patches.doubtful.push_back(across / 3);
+        }
+      }
+    }
+    certain = queue.size();
+    // Faces that may be connected, too, must face the axis but count as strangers.
+    for (std::size_t i = 0; i < patches.doubtful.size() && isGraph; ++i) {
+      const int f = patches.doubtful[i];
+      if (patches.of[at(f)] == number) continue;
+      patches.of[at(f)] = number;
+      queue.push_back(f);
+      isGraph = facesTowards(normal(f), window.axis);
+      Vec2 p[3];
+      for (int k = 0; k < 3; ++k) {
+        p[k] = window.project(point(faces_(f, k)));
+        if (window.mayMeet(p[k], p[k]) && isEmbedded_[at(faces_(f, k))] == 0) isGraph = false;
+      }
+      for (int k = 0; k < 3; ++k) {
+        if (!window.mayMeet(p[k], p[(k + 1) % 3])) continue;
+        const int across = opposite_[at(3 * f + k)];
+        if (across < 0) {
+          isGraph = false;
+        } else if (patches.of[at(across / 3)] != number) {
+          patches.doubtful.push_back(across / 3);
+        }
+      }
+    }
+    for (std::size_t i = isGraph ? certain : 0; i < queue.size(); ++i)
+      patches.of[at(queue[i])] = -1;
+    return isGraph;
+  }
+
+  void searchBlock(Eigen::Index block, Patches& patches, std::vector<int>& found) const {
+    const Eigen::Index begin = block * kBlock;
+    const Eigen::Index end = std::min(faces_.rows(), begin + kBlock);
+    Window window;
+    Vec3 axis = Vec3::Zero();
+    Box boxes[kBlock];
+    Box all;
+    double edge = 0.0;
+    for (Eigen::Index i = begin; i < end; ++i) {
+      const int f = tree_.faceAt(i);
+      const Normal n = normal(f);
+      const double length = n.vector.norm();
+      if (length > 0.0) axis += n.vector / length;
+      edge += std::sqrt(n.length);
+      boxes[i - begin] = boxOf(f);
+      all.extend(boxes[i - begin]);
+    }
+    edge /= static_cast<double>(end - begin);
+    patches.first = patches.next;
+    if (axis.norm() > 0.5) {
+      window.axis = axis.normalized();
+      window.u = window.axis.unitOrthogonal();
+      window.w = window.axis.cross(window.u);
+      window.lower.setConstant(std::numeric_limits<double>::infinity());
+      window.upper = -window.lower;
+      for (Eigen::Index i = begin; i < end; ++i) {
+        for (const int v : faces_.row(tree_.faceAt(i))) {
+          const Vec2 p = window.project(point(v));
+          window.lower = window.lower.cwiseMin(p);
+          window.upper = window.upper.cwiseMax(p);
+        }
+      }
+      window.slack =
+          kSafe * (all.min().cwiseAbs().cwiseMax(all.max().cwiseAbs()).maxCoeff() + edge);
+      window.lower.array() -= kMargin * edge;
+      window.upper.array() += kMargin * edge;
+      constexpr int kMostPatches = 4;
+      for (Eigen::Index i = begin; i < end && patches.next < patches.first + kMostPatches; ++i) {
+        const int f = tree_.faceAt(i);
+        if (patches.of[at(f)] >= patches.first) continue;
+        if (!growPatch(f, window, patches)) break;
+        ++patches.next;
+      }
+    }
+    // What is left: pairs that no patch has in common. Most often one patch has the whole block.
+    const int common = patches.of[at(tree_.faceAt(begin))];
+    bool isOnePatch = common >= patches.first;
+    int patchOf[kBlock];
+    for (Eigen::Index i = begin; i < end; ++i) {
+      patchOf[i - begin] = patches.of[at(tree_.faceAt(i))];
+      isOnePatch = isOnePatch && patchOf[i - begin] == common;
+    }
+    tree_.forOverlaps(all.min(), all.max(), begin, [&](Eigen::Index i) {
+      const int f = tree_.faceAt(i);
+      const int patch = patches.of[at(f)];
+      const bool isKnown = patch >= patches.first;
+      if (isOnePatch && patch == common) return;
+      const Box box = boxOf(f);
+      if (!box.intersects(all)) return;
+      for (Eigen::Index j = begin; j < std::min(end, i); ++j) {
+        if (!box.intersects(boxes[j - begin]) || (isKnown && patchOf[j - begin] == patch)) continue;
+        const int g = tree_.faceAt(j);
+        if (cross(f, g)) {
+          found.push_back(f);
+          found.push_back(g);
+        }
+      }
+    });
+  }
+
+  Kernel::Point_3 exact(int v) const { return {x_(v, 0), x_(v, 1), x_(v, 2)}; }
+
+  /// Whether a plane near one of the triangles has them on different sides.
+  bool areApart(int f, int g) const {
+    for (int turn = 0; turn < 2; ++turn) {
+      const int one = turn == 0 ? f : g;
+      const int two = turn == 0 ? g : f;
+      const Normal n = normal(one);
+      const Vec3 a = point(faces_(one, 0));
+      double least = std::numeric_limits<double>::infinity();
+      double most = -least;
+      double scale = 0.0;
+      for (int k = 0; k < 3; ++k) {
+        const Vec3 d = point(faces_(two, k)) - a;
+        const double side = n.vector.dot(d);
+        least = std::min(least, side);
+        most = std::max(most, side);
+        scale = std::max(scale, d.norm());
+      }
+      const double doubt = kSafe * n.length * scale;
+      if (least > doubt || most < -doubt) return true;
+    }
+    return false;
+  }
+
+  /// As CGAL's `self_intersections` decides it.
+  bool cross(int f, int g) const {
+    int sharedF[3];
+    int sharedG[3];
+    int shared = 0;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        if (faces_(f, i) != faces_(g, j)) continue;
+        if (isEmbedded_[at(faces_(f, i))] != 0) return false;
+        sharedF[shared] = i;
+        sharedG[shared] = j;
+        if (++shared == 3) return true;
+      }
+    }
+    const auto triangle = [&](int face) {
+      return Kernel::Triangle_3(exact(faces_(face, 0)), exact(faces_(face, 1)),
+                                exact(faces_(face, 2)));
+    };
+    if (shared == 0 && areApart(f, g)) return false;
+    // The predicates do not take faces without area, which `facesWithoutArea` tells.
+    if (triangle(f).is_degenerate() || triangle(g).is_degenerate()) return false;
+    if (shared == 0) return CGAL::do_intersect(triangle(f), triangle(g));
+    if (shared == 1) {
+      const int i = sharedF[0];
+      const int j = sharedG[0];
+      return CGAL::do_intersect(triangle(f), Kernel::Segment_3(exact(faces_(g, (j + 1) % 3)),
+                                                               exact(faces_(g, (j + 2) % 3)))) ||
+             CGAL::do_intersect(triangle(g), Kernel::Segment_3(exact(faces_(f, (i + 1) % 3)),
+                                                               exact(faces_(f, (i + 2) % 3))));
+    }
+    const Kernel::Point_3 p = exact(faces_(f, sharedF[0]));
+    const Kernel::Point_3 q = exact(faces_(f, sharedF[1]));
+    const Kernel::Point_3 r = exact(faces_(f, 3 - sharedF[0] - sharedF[1]));
+    const Kernel::Point_3 s = exact(faces_(g, 3 - sharedG[0] - sharedG[1]));
+    return CGAL::coplanar(p, q, r, s) && CGAL::coplanar_orientation(p, q, r, s) == CGAL::POSITIVE;
+  }
+
+  const Points& x_;
+  const Faces& faces_;
+  const TriangleTree& tree_;
+  VertexCorners corners_;
+  std::vector<int> opposite_;
+  std::vector<char> isEmbedded_;
+};
+
+} // namespace
+
+std::vector<int> selfIntersectingFaces(const Points& vertices, const Faces& faces,
+                                       TriangleTree::Order order) {
+  return selfIntersectingFaces(
+      TriangleTree(vertices, faces, order, TriangleTree::Queries::NoDistances));
+}
+
+std::vector<int> selfIntersectingFaces(const TriangleTree& surface) {
+  return SelfIntersections(surface).find();
+}
+
+} // namespace massprops

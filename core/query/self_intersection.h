@@ -1,0 +1,20 @@
+// Whether triangles form what a printer can print, decided by exact predicates.
+#pragma once
+
+#include "core/base/types.h"
+#include "core/query/triangle_tree.h"
+
+#include <vector>
+
+namespace massprops {
+
+/// Faces that cross or overlap another face of the same surface, ascending; touching along a
+/// shared edge or vertex is no crossing. Exact. Where the surface is smooth it proves by projection
+/// that whole patches cannot cross themselves and compares no pairs: docs/math.md "Crossings".
+/// `order`: of the faces. \pre every edge of the surface has one or two faces
+std::vector<int> selfIntersectingFaces(const Points& vertices, const Faces& faces,
+                                       TriangleTree::Order order = TriangleTree::Order::Any);
+/// The same where there is a tree already.
+std::vector<int> selfIntersectingFaces(const TriangleTree& surface);
+
+} // namespace massprops

@@ -1,0 +1,278 @@
+#include "core/query/surface_distance.h"
+
+#include "core/base/parallel.h"
+#include "core/mesh/connectivity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace massprops {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr Eigen::Index kChunk = 1024;
+constexpr double kRounding = 1e-12;
+/// The search goes a little beyond the horizon: so far a face may move before the next measurement
+/// has to look at it again.
+constexpr double kBeyond = 1.001;
+
+/// Radius of the smallest ball around the triangle, squared, given its sides' squares.
+double squaredRadius(double ab, double bc, double ca) {
+  const double longest = std::max({ab, bc, ca});
+  const double others = ab + bc + ca - longest;
+  if (others <= longest) return 0.25 * longest; // not acute
+  // a²b²c²/(16 area²), 16 area² = 2(a²b² + b²c² + c²a²) − (a⁴ + b⁴ + c⁴)
+  const double sixteenAreas = 2.0 * (ab * bc + bc * ca + ca * ab) - (ab * ab + bc * bc + ca * ca);
+  return ab * bc * ca / sixteenAreas;
+}
+
+/// Bounds of distances by what is known of where vertices and faces were.
+class Remembered {
+public:
+  Remembered(const ClearanceMemory& memory, const Points& vertices)
+      : memory_(memory), corners_(vertexCorners(vertices.rows(), memory.faces)) {
+    if (!isEmpty()) moved_ = (vertices - memory.vertices).rowwise().norm();
+  }
+
+  bool isEmpty() const { return memory_.faces.rows() == 0; }
+  int nearestFace(Eigen::Index v) const {
+    return isEmpty() ? -1 : memory_.nearestFace[static_cast<std::size_t>(v)];
+  }
+  double vertexBound(Eigen::Index v) const {
+    return memory_.vertexBounds[v] * (1.0 - kRounding) - moved_[v];
+  }
+  double faceBound(const Eigen::RowVector3i& face) const {
+    for (const int corner : corners_.at(face[0])) {
+      if (memory_.faces.row(corner / 3) != face) continue;
+      const double moved = std::max({moved_[face[0]], moved_[face[1]], moved_[face[2]]});
+      return memory_.faceBounds[corner / 3] * (1.0 - kRounding) - moved;
+    }
+    return 0.0;
+  }
+
+private:
+  const ClearanceMemory& memory_;
+  VertexCorners corners_;
+  Vector moved_;
+};
+
+/// One measurement, step by step.
+class Measurement {
+public:
+  Measurement(const Points& vertices, const Faces& faces, const TriangleTree& other, double horizon,
+              const ClearanceMemory& memory)
+      : x_(vertices), faces_(faces), other_(other), horizon_(horizon),
+        remembered_(memory, vertices), squared_(Vector::Constant(vertices.rows(), kInfinity)),
+        vertexBounds_(Vector::Zero(vertices.rows())), faceBounds_(faces.rows()),
+        nearestFace_(static_cast<std::size_t>(vertices.rows()), -1) {}
+
+  void measureVertices() {
+    const double exact = 4.0 * horizon_ * horizon_;
+    measureVertices(exact, false);
+    // All is far away, so that the least of all is not known yet.
+    if (squared_.minCoeff() > exact) measureVertices(squared_.minCoeff(), true);
+  }
+
+  /// Returns the faces that cross the other surface.
+  std::vector<int> measureFaces() {
+    std::vector<std::vector<Near>> near(
+        static_cast<std::size_t>(chunkCount(faces_.rows(), kChunk)));
+    forChunks(faces_.rows(), kChunk, [&](const Chunk& chunk) {
+      for (Eigen::Index f = chunk.begin; f < chunk.end; ++f) {
+        double& bound = faceBounds_[f];
+        bound = boundByCorners(f);
+        if (bound < horizon_) bound = std::max(bound, remembered_.faceBound(faces_.row(f)));
+        if (bound >= horizon_ * (1.0 + kRounding)) continue;
+        const double reach = kBeyond * horizon_;
+        const double enough = std::min(leastAtCorners(squared_, f), reach * reach);
+        const double found = distanceOf(f, enough);
+        bound = std::sqrt(found);
+        if (found < enough) {
+          near[static_cast<std::size_t>(chunk.number)].push_back({static_cast<int>(f), found});
+        }
+      }
+    });
+    std::vector<int> crossing;
+    for (const std::vector<Near>& part : near) {
+      for (const Near& n : part) {
+        if (n.squaredDistance == 0.0) crossing.push_back(n.face);
+        account(n);
+      }
+    }
+    return crossing;
+  }
+
+  /// Looks at all faces that may be nearer than the nearest known, the same ones whatever the
+  /// number of threads.
+  void findLeast() {
+    double least = squared_.minCoeff();
+    std::vector<int> candidates;
+    for (Eigen::Index f = 0; f < faces_.rows(); ++f) {
+      if (mayBeNearer(f, least)) candidates.push_back(static_cast<int>(f));
+    }
+    std::sort(candidates.begin(), candidates.end(), [&](int f, int g) {
+      return faceBounds_[f] < faceBounds_[g] || (faceBounds_[f] == faceBounds_[g] && f < g);
+    });
+    constexpr Eigen::Index kBatch = 256;
+    constexpr Eigen::Index kFewFaces = 16;
+    const auto count = static_cast<Eigen::Index>(candidates.size());
+    for (Eigen::Index begin = 0; begin < count; begin += kBatch) {
+      const int* const batch = candidates.data() + begin;
+      if (!mayBeNearer(batch[0], least)) break;
+      Vector found(std::min(kBatch, count - begin));
+      forChunks(found.size(), kFewFaces, [&](const Chunk& chunk) {
+        for (Eigen::Index i = chunk.begin; i < chunk.end; ++i) {
+          found[i] = distanceOf(batch[i], least);
+        }
+      });
+      for (Eigen::Index i = 0; i < found.size(); ++i) {
+        if (found[i] >= least) continue;
+        least = found[i];
+        account({batch[i], least});
+      }
+    }
+  }
+
+  /// For every vertex the least of the triangles around it.
+  Vector distances() const {
+    Vector around = squared_;
+    for (Eigen::Index f = 0; f < faces_.rows(); ++f) {
+      const double nearest = leastAtCorners(squared_, f);
+      for (const int v : faces_.row(f)) around[v] = std::min(around[v], nearest);
+    }
+    return around.cwiseSqrt();
+  }
+
+  const std::vector<int>& nearestFace() const { return nearestFace_; }
+  ClearanceMemory memory() const { return {x_, nearestFace_, faces_, vertexBounds_, faceBounds_}; }
+
+private:
+  struct Near {
+    int face;
+    double squaredDistance;
+  };
+
+  void account(const Near& near) {
+    for (const int v : faces_.row(near.face)) {
+      squared_[v] = std::min(squared_[v], near.squaredDistance);
+    }
+  }
+
+  bool mayBeNearer(Eigen::Index f, double squaredDistance) const {
+    return faceBounds_[f] * faceBounds_[f] < squaredDistance * (1.0 - kRounding);
+  }
+
+  double leastAtCorners(const Vector& values, Eigen::Index f) const {
+    return std::min({values[faces_(f, 0)], values[faces_(f, 1)], values[faces_(f, 2)]});
+  }
+
+  double distanceOf(Eigen::Index f, double squaredBound) const {
+    return other_.squaredDistance(x_.row(faces_(f, 0)).transpose(),
+                                  x_.row(faces_(f, 1)).transpose(),
+                                  x_.row(faces_(f, 2)).transpose(), squaredBound);
+  }
+
+  /// At y = Σλ_i y_i the other surface is at least d away, d² ≥ Σλ_i d_i² − Σλ_i|y_i − y|²: a point
+  /// nearer than that to y would be nearer than d_i to some corner, for Σλ_i|p − y_i|² = |p − y|² +
+  /// Σλ_i|y_i − y|². The last sum is at most the squared radius of the smallest ball around the
+  /// triangle.
+  double boundByCorners(Eigen::Index f) const {
+    const auto side = [&](int k) {
+      return (x_.row(faces_(f, k)) - x_.row(faces_(f, (k + 1) % 3))).squaredNorm();
+    };
+    const double ofCorners = leastAtCorners(vertexBounds_, f);
+    return std::sqrt(
+        std::max(0.0, ofCorners * ofCorners - squaredRadius(side(0), side(1), side(2))));
+  }
+
+  void measureVertices(double squaredExact, bool all) {
+    std::vector<char> isUsed(nearestFace_.size(), 0);
+    for (Eigen::Index i = 0; i < faces_.size(); ++i) {
+      isUsed[static_cast<std::size_t>(faces_.data()[i])] = 1;
+    }
+    forChunks(x_.rows(), kChunk, [&](const Chunk& chunk) {
+      int hint = -1;
+      for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
+        if (isUsed[static_cast<std::size_t>(v)] == 0) continue;
+        if (remembered_.nearestFace(v) >= 0) hint = remembered_.nearestFace(v);
+        if (all || !isSurelyFar(v)) hint = searchNearest(v, squaredExact, hint);
+        nearestFace_[static_cast<std::size_t>(v)] = hint;
+      }
+    });
+  }
+
+  /// Whether what is remembered of the vertex will do; if so, it is known from then on.
+  bool isSurelyFar(Eigen::Index v) {
+    const int face = remembered_.nearestFace(v);
+    if (face < 0) return false;
+    const double bound = remembered_.vertexBound(v);
+    if (bound < horizon_) return false;
+    const double most = other_.squaredDistance(x_.row(v).transpose(), face);
+    if (most > TriangleTree::kSlack * TriangleTree::kSlack * bound * bound) return false;
+    squared_[v] = most;
+    vertexBounds_[v] = bound;
+    return true;
+  }
+
+  /// Returns the nearest face.
+  int searchNearest(Eigen::Index v, double squaredExact, int hint) {
+    const TriangleTree::Hit hit =
+        other_.nearest(x_.row(v).transpose(), kInfinity, hint, squaredExact);
+    const double distance = std::sqrt(hit.squaredDistance);
+    squared_[v] = hit.squaredDistance;
+    vertexBounds_[v] = hit.squaredDistance > squaredExact
+                           ? std::max(std::sqrt(squaredExact), distance / TriangleTree::kSlack)
+                           : distance;
+    return hit.face;
+  }
+
+  const Points& x_;
+  const Faces& faces_;
+  const TriangleTree& other_;
+  double horizon_;
+  Remembered remembered_;
+  Vector squared_;                   ///< distances of the vertices, at most
+  Vector vertexBounds_, faceBounds_; ///< distances, at least
+  std::vector<int> nearestFace_;
+};
+
+} // namespace
+
+Vector chords(const TriangleTree& surface, const Points& points, const Points& directions) {
+  Vector result(points.rows());
+  forChunks(points.rows(), kChunk, [&](const Chunk& chunk) {
+    for (Eigen::Index i = chunk.begin; i < chunk.end; ++i) {
+      result[i] = surface.firstHit(points.row(i).transpose(), directions.row(i).transpose());
+    }
+  });
+  return result;
+}
+
+Clearance clearanceOf(const Points& vertices, const Faces& faces, const TriangleTree& other,
+                      double horizon, ClearanceMemory* memory) {
+  Clearance result;
+  if (faces.rows() == 0) {
+    result.distance = Vector::Constant(vertices.rows(), kInfinity);
+    result.nearestFace.assign(static_cast<std::size_t>(vertices.rows()), -1);
+    result.least = kInfinity;
+    return result;
+  }
+  const ClearanceMemory nothing;
+  Measurement measurement(vertices, faces, other, horizon, memory != nullptr ? *memory : nothing);
+  measurement.measureVertices();
+  result.crossing = measurement.measureFaces();
+  measurement.findLeast();
+  result.distance = measurement.distances();
+  result.least = result.distance.minCoeff();
+  result.nearestFace = measurement.nearestFace();
+  if (memory != nullptr) *memory = measurement.memory();
+  return result;
+}
+
+Vector surfaceDistances(const Points& vertices, const Faces& faces, const Points& otherVertices,
+                        const Faces& otherFaces, double horizon) {
+  return clearanceOf(vertices, faces, TriangleTree(otherVertices, otherFaces), horizon).distance;
+}
+
+} // namespace massprops

@@ -1,0 +1,458 @@
+#include "core/query/triangle_tree.h"
+
+#include "core/base/parallel.h"
+#include "core/base/triangle.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+namespace massprops {
+namespace {
+
+constexpr Eigen::Index kChunk = 4096;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Leaves of a tree over so many triangles: the least power of two that leaves four for each.
+Eigen::Index leafCount(Eigen::Index triangles) {
+  Eigen::Index leaves = 1;
+  while (4 * leaves < triangles) leaves *= 2;
+  return leaves;
+}
+
+struct Centre {
+  float position[3];
+  int face;
+};
+
+/// Orders the centres for the leaves first … first + count − 1 of all `leaves`, which hold `all`
+/// triangles together.
+void cut(std::vector<Centre>& centres, Eigen::Index first, Eigen::Index count,
+         Eigen::Index leaves) {
+  if (count == 1) return;
+  const auto all = static_cast<Eigen::Index>(centres.size());
+  const auto place = [&](Eigen::Index leaf) { return centres.begin() + leaf * all / leaves; };
+  float lower[3] = {1e30F, 1e30F, 1e30F};
+  float upper[3] = {-1e30F, -1e30F, -1e30F};
+  for (auto c = place(first); c != place(first + count); ++c) {
+    for (int k = 0; k < 3; ++k) {
+      lower[k] = std::min(lower[k], c->position[k]);
+      upper[k] = std::max(upper[k], c->position[k]);
+    }
+  }
+  int axis = 0;
+  for (int k = 1; k < 3; ++k) {
+    if (upper[k] - lower[k] > upper[axis] - lower[axis]) axis = k;
+  }
+  const Eigen::Index half = count / 2;
+  std::nth_element(place(first), place(first + half), place(first + count),
+                   [axis](const Centre& a, const Centre& b) {
+                     return a.position[axis] < b.position[axis] ||
+                            (a.position[axis] == b.position[axis] && a.face < b.face);
+                   });
+  constexpr Eigen::Index kWorthAThread = 4096;
+  const auto left = [&] { cut(centres, first, half, leaves); };
+  const auto right = [&] { cut(centres, first + half, half, leaves); };
+  if (count == leaves && leaves >= kWorthAThread) {
+    inParallel(left, right);
+  } else {
+    left();
+    right();
+  }
+}
+
+float below(double x) {
+  const auto f = static_cast<float>(x);
+  return static_cast<double>(f) > x ? std::nextafter(f, -std::numeric_limits<float>::infinity())
+                                    : f;
+}
+
+float above(double x) {
+  return -below(-x);
+}
+
+Vec3 nearestOnTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 w = nearestWeights(p, a, b, c);
+  return w[0] * a + w[1] * b + w[2] * c;
+}
+
+/// [Eri05, Sec. 5.1.9]
+double squaredDistanceOfSegments(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
+  const Vec3 d1 = q - p;
+  const Vec3 d2 = s - r;
+  const Vec3 w = p - r;
+  const double a = d1.squaredNorm();
+  const double e = d2.squaredNorm();
+  const double f = d2.dot(w);
+  const double c = d1.dot(w);
+  const double b = d1.dot(d2);
+  const double denominator = a * e - b * b;
+  double t = 0.0;
+  double u = 0.0;
+  if (a > 0.0) {
+    // Nearly parallel: any point will do, for ends are compared with the other triangle as well.
+    if (denominator > 1e-14 * a * e) t = std::clamp((b * f - c * e) / denominator, 0.0, 1.0);
+    u = e > 0.0 ? (b * t + f) / e : 0.0;
+    if (!(u >= 0.0)) {
+      u = 0.0;
+      t = std::clamp(-c / a, 0.0, 1.0);
+    } else if (u > 1.0) {
+      u = 1.0;
+      t = std::clamp((b - c) / a, 0.0, 1.0);
+    }
+  } else if (e > 0.0) {
+    u = std::clamp(f / e, 0.0, 1.0);
+  }
+  return (w + t * d1 - u * d2).squaredNorm();
+}
+
+/// Whether an edge of t goes through the inside of the triangle (a, b, c).
+bool pierces(const Vec3 (&t)[3], const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 normal = (b - a).cross(c - a);
+  double side[3];
+  for (int k = 0; k < 3; ++k) side[k] = normal.dot(t[k] - a);
+  if ((side[0] > 0.0 && side[1] > 0.0 && side[2] > 0.0) ||
+      (side[0] < 0.0 && side[1] < 0.0 && side[2] < 0.0)) {
+    return false;
+  }
+  for (int k = 0; k < 3; ++k) {
+    const int n = (k + 1) % 3;
+    if (side[k] * side[n] > 0.0 || side[k] == side[n]) continue;
+    const Vec3 at = t[k] + side[k] / (side[k] - side[n]) * (t[n] - t[k]);
+    if (normal.dot((b - a).cross(at - a)) >= 0.0 && normal.dot((c - b).cross(at - b)) >= 0.0 &&
+        normal.dot((a - c).cross(at - c)) >= 0.0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+double squaredDistanceOfTriangles(const Vec3 (&s)[3], const Vec3 (&t)[3]) {
+  if (pierces(s, t[0], t[1], t[2]) || pierces(t, s[0], s[1], s[2])) return 0.0;
+  double least = kInfinity;
+  for (int i = 0; i < 3; ++i) {
+    least = std::min(least, (s[i] - nearestOnTriangle(s[i], t[0], t[1], t[2])).squaredNorm());
+    least = std::min(least, (t[i] - nearestOnTriangle(t[i], s[0], s[1], s[2])).squaredNorm());
+    for (int j = 0; j < 3; ++j) {
+      least =
+          std::min(least, squaredDistanceOfSegments(s[i], s[(i + 1) % 3], t[j], t[(j + 1) % 3]));
+    }
+  }
+  return least;
+}
+
+/// The squared gap between s and t along `axis`, which points from s to t: no more than their
+/// squared distance.
+double squaredGapAlong(const Vec3& axis, const Vec3 (&s)[3], const Vec3 (&t)[3]) {
+  const double endOfS = std::max({axis.dot(s[0]), axis.dot(s[1]), axis.dot(s[2])});
+  const double startOfT = std::min({axis.dot(t[0]), axis.dot(t[1]), axis.dot(t[2])});
+  const double gap = startOfT - endOfS;
+  return gap > 0.0 ? gap * gap / axis.squaredNorm() : 0.0;
+}
+
+/// The squared distance of s and t where it is below the bound, else no less than the bound, up to
+/// a billionth. Going to the nearest point back and forth between the two ends at their shortest
+/// way, which a gap along it proves [CG59]; where that takes long, or the way is too short for its
+/// direction to be known, all features are compared.
+double squaredDistanceBelow(double squaredBound, const Vec3 (&s)[3], const Vec3 (&t)[3]) {
+  constexpr double kUpToRounding = 1.0 + 1e-9;
+  constexpr double kKnownDirection = 1e-14;
+  constexpr int kSteps = 4;
+  Vec3 ofS = Vec3::Zero();
+  Vec3 ofT = (t[0] + t[1] + t[2]) / 3.0;
+  for (int step = 0; step < kSteps; ++step) {
+    if (step % 2 == 0) {
+      ofS = nearestOnTriangle(ofT, s[0], s[1], s[2]);
+    } else {
+      ofT = nearestOnTriangle(ofS, t[0], t[1], t[2]);
+    }
+    const Vec3 way = ofT - ofS;
+    const double atLeast = kUpToRounding * squaredGapAlong(way, s, t);
+    if (atLeast >= squaredBound) return squaredBound;
+    const double atMost = way.squaredNorm();
+    if (atLeast >= atMost && atMost > kKnownDirection * squaredBound) return atMost;
+  }
+  return std::min(squaredBound, squaredDistanceOfTriangles(s, t));
+}
+
+} // namespace
+
+std::vector<int> spatialOrder(const Points& vertices, const Faces& faces) {
+  std::vector<Centre> centres(static_cast<std::size_t>(faces.rows()));
+  // Relative to the box, for a float has few digits.
+  const Eigen::RowVector3d origin = vertices.rows() > 0
+                                        ? Eigen::RowVector3d(vertices.colwise().minCoeff())
+                                        : Eigen::RowVector3d::Zero();
+  const double size =
+      vertices.rows() > 0 ? (vertices.colwise().maxCoeff() - origin).maxCoeff() : 0.0;
+  const double scale = size > 0.0 ? 1.0 / size : 0.0;
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    const Eigen::RowVector3d sum =
+        vertices.row(faces(f, 0)) + vertices.row(faces(f, 1)) + vertices.row(faces(f, 2));
+    const Eigen::RowVector3f centre = ((sum - 3.0 * origin) * scale).cast<float>();
+    centres[static_cast<std::size_t>(f)] = {{centre[0], centre[1], centre[2]}, static_cast<int>(f)};
+  }
+  const Eigen::Index leaves = leafCount(faces.rows());
+  cut(centres, 0, leaves, leaves);
+  std::vector<int> order(centres.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = centres[i].face;
+  return order;
+}
+
+TriangleTree::TriangleTree(const Points& vertices, const Faces& faces, Order order, Queries queries)
+    : TriangleTree(vertices, faces,
+                   order == Order::Any ? spatialOrder(vertices, faces) : std::vector<int>(),
+                   queries) {}
+
+TriangleTree::TriangleTree(const Points& vertices, const Faces& faces, std::vector<int> order,
+                           Queries queries)
+    : vertices_(vertices), faces_(faces), order_(std::move(order)),
+      leaves_(leafCount(faces.rows())) {
+  if (queries == Queries::All) triangles_.resize(static_cast<std::size_t>(leaves_));
+  std::vector<Box> level(static_cast<std::size_t>(leaves_));
+  forChunks(leaves_, kChunk, [&](const Chunk& chunk) {
+    for (Eigen::Index leaf = chunk.begin; leaf < chunk.end; ++leaf) {
+      level[static_cast<std::size_t>(leaf)] = boxOf(firstPlace(leaf), firstPlace(leaf + 1));
+      if (queries == Queries::All) triangles_[static_cast<std::size_t>(leaf)] = trianglesOf(leaf);
+    }
+  });
+  boxes_.resize(static_cast<std::size_t>(leaves_ / 2));
+  Eigen::Index nodes = leaves_;
+  for (; nodes >= 4; nodes /= 4) {
+    for (Eigen::Index i = 0; i < nodes / 4; ++i) {
+      FourBoxes& four = boxes_[static_cast<std::size_t>(nodes / 4 + i)];
+      Box all = level[static_cast<std::size_t>(4 * i)];
+      for (int child = 0; child < 4; ++child) {
+        const Box& box = level[static_cast<std::size_t>(4 * i + child)];
+        for (int k = 0; k < 3; ++k) {
+          four.lower[k][child] = box.lower[k];
+          four.upper[k][child] = box.upper[k];
+        }
+        all = {all.lower.min(box.lower), all.upper.max(box.upper)};
+      }
+      level[static_cast<std::size_t>(i)] = all;
+    }
+  }
+  roots_ = static_cast<int>(nodes);
+  box_ = {level[0].lower.min(level[static_cast<std::size_t>(nodes - 1)].lower),
+          level[0].upper.max(level[static_cast<std::size_t>(nodes - 1)].upper)};
+  constexpr float kUnits = 8.0F;
+  rounding_ = kUnits * std::numeric_limits<float>::epsilon() *
+              std::max(box_.lower.abs().maxCoeff(), box_.upper.abs().maxCoeff());
+}
+
+TriangleTree::Box TriangleTree::around(const Vec3& lower, const Vec3& upper) {
+  Box box;
+  for (int k = 0; k < 3; ++k) {
+    box.lower[k] = below(lower[k]);
+    box.upper[k] = above(upper[k]);
+  }
+  return box;
+}
+
+TrianglePacket TriangleTree::trianglesOf(Eigen::Index leaf) const {
+  TrianglePacket four;
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::Index place = std::min(firstPlace(leaf) + i, firstPlace(leaf + 1) - 1);
+    if (place < 0) break; // no triangles at all
+    const int f = faceAt(place);
+    four.set(i, corner(f, 0), corner(f, 1), corner(f, 2));
+  }
+  return four;
+}
+
+TriangleTree::Box TriangleTree::boxOf(Eigen::Index begin, Eigen::Index end) const {
+  Vec3 lower = Vec3::Constant(kInfinity);
+  Vec3 upper = Vec3::Constant(-kInfinity);
+  for (Eigen::Index i = begin; i < end; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 p = corner(faceAt(i), k);
+      lower = lower.cwiseMin(p);
+      upper = upper.cwiseMax(p);
+    }
+  }
+  return around(lower, upper);
+}
+
+Lanes TriangleTree::squaredGaps(const FourBoxes& boxes, const Box& other) const {
+  Lanes sum = Lanes::Zero();
+  for (int k = 0; k < 3; ++k) {
+    // What floats cannot tell counts as no gap.
+    const Lanes outside =
+        (boxes.lower[k] - other.upper[k]).max(other.lower[k] - boxes.upper[k]) - rounding_;
+    sum += Lanes::Zero().max(outside).square();
+  }
+  return kBelowRounding * Lanes::Zero()
+                              .max(sum - std::numeric_limits<float>::min())
+                              .min(std::numeric_limits<float>::max());
+}
+
+template <class Distances, class Reach, class Visit>
+void TriangleTree::visitNearest(const Distances& distances, const Reach& reach,
+                                const Visit& visit) const {
+  struct Entry {
+    Eigen::Index node;
+    double distance;
+  };
+  Entry stack[64];
+  int size = 0;
+  for (int root = 0; root < roots_; ++root) stack[size++] = {roots_ + root, -kInfinity};
+  while (size > 0) {
+    const Entry e = stack[--size];
+    if (!(e.distance < reach())) continue;
+    if (e.node >= leaves_) {
+      visit(e.node - leaves_);
+      continue;
+    }
+    const auto found = distances(boxes_[static_cast<std::size_t>(e.node)]);
+    const double most = reach();
+    const int first = size;
+    for (int k = 0; k < 4; ++k) {
+      stack[size] = {4 * e.node + k, static_cast<double>(found[k])};
+      if (stack[size].distance < most) ++size;
+    }
+    for (int i = first; i + 1 < size; ++i) {
+      if (stack[i].distance < stack[size - 1].distance) std::swap(stack[i], stack[size - 1]);
+    }
+  }
+}
+
+template <class Reach, class Visit>
+void TriangleTree::visitWithin(const Box& box, const Reach& squaredReach,
+                               const Visit& visit) const {
+  Eigen::Index stack[64];
+  int size = 0;
+  for (int root = 0; root < roots_; ++root) stack[size++] = roots_ + root;
+  while (size > 0) {
+    const Eigen::Index node = stack[--size];
+    if (node >= leaves_) {
+      visit(node - leaves_);
+      continue;
+    }
+    const Lanes gaps = squaredGaps(boxes_[static_cast<std::size_t>(node)], box);
+    for (int k = 0; k < 4; ++k) {
+      stack[size] = 4 * node + k;
+      if (static_cast<double>(gaps[k]) < squaredReach()) ++size;
+    }
+  }
+}
+
+TriangleTree::Hit TriangleTree::nearest(const Vec3& p, double squaredBound, int hintFace,
+                                        double squaredExact) const {
+  assert(!triangles_.empty());
+  Hit best;
+  best.squaredDistance = squaredBound;
+  // Boxes at this distance or farther away are of no interest.
+  double reach = squaredBound;
+  const auto visit = [&](int f) {
+    const Vec3 a = corner(f, 0);
+    const Vec3 b = corner(f, 1);
+    const Vec3 c = corner(f, 2);
+    const Vec3 point = nearestOnTriangle(p, a, b, c);
+    const double distance = (p - point).squaredNorm();
+    if (!(distance < best.squaredDistance)) return;
+    best = {distance, f, point};
+    reach =
+        distance > squaredExact ? std::max(squaredExact, distance / (kSlack * kSlack)) : distance;
+  };
+  if (hintFace >= 0) visit(hintFace);
+  const Box at = around(p, p);
+  visitNearest([&](const FourBoxes& boxes) { return squaredGaps(boxes, at); },
+               [&] { return reach; },
+               [&](Eigen::Index leaf) {
+                 const Lanes atLeast =
+                     triangles_[static_cast<std::size_t>(leaf)].squaredDistances(p, rounding_);
+                 const Eigen::Index begin = firstPlace(leaf);
+                 const Eigen::Index end = firstPlace(leaf + 1);
+                 for (Eigen::Index i = begin; i < end; ++i) {
+                   if (!(static_cast<double>(atLeast[i - begin]) >= reach)) visit(faceAt(i));
+                 }
+               });
+  return best;
+}
+
+double TriangleTree::squaredDistance(const Vec3& p, int face) const {
+  return (p - nearestOnTriangle(p, corner(face, 0), corner(face, 1), corner(face, 2)))
+      .squaredNorm();
+}
+
+double TriangleTree::squaredDistance(const Vec3& a, const Vec3& b, const Vec3& c,
+                                     double squaredBound) const {
+  assert(!triangles_.empty());
+  const Vec3 s[3] = {a, b, c};
+  const QueryTriangle query(a, b, c);
+  const Box box = around(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c));
+  double least = squaredBound;
+  const auto visit = [&](Eigen::Index leaf) {
+    const Lanes atLeast =
+        query.squaredDistances(triangles_[static_cast<std::size_t>(leaf)], rounding_);
+    const Eigen::Index begin = firstPlace(leaf);
+    const Eigen::Index end = firstPlace(leaf + 1);
+    for (Eigen::Index i = begin; i < end; ++i) {
+      if (static_cast<double>(atLeast[i - begin]) >= least) continue;
+      const int f = faceAt(i);
+      const Vec3 t[3] = {corner(f, 0), corner(f, 1), corner(f, 2)};
+      least = squaredDistanceBelow(least, s, t);
+    }
+  };
+  // The bound is near the distance most often: no order would bring it down much sooner.
+  visitWithin(
+      box, [&] { return least; }, visit);
+  return least;
+}
+
+double TriangleTree::firstHit(const Vec3& start, const Vec3& direction, double limit) const {
+  constexpr double kGrown = 1e-9;
+  double best = limit;
+  const Vec3 inverse = direction.cwiseInverse();
+  constexpr double kHuge = std::numeric_limits<double>::max();
+  const auto entries = [&](const FourBoxes& boxes) -> Eigen::Array4d {
+    Eigen::Array4d first = Eigen::Array4d::Zero();
+    Eigen::Array4d last = Eigen::Array4d::Constant(best);
+    Eigen::Array4d beside = Eigen::Array4d::Zero();
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Array4d lower = boxes.lower[k].cast<double>() - start[k];
+      const Eigen::Array4d upper = boxes.upper[k].cast<double>() - start[k];
+      if (direction[k] == 0.0) {
+        beside = beside.max(lower).max(-upper);
+      } else {
+        const Eigen::Array4d s = lower * inverse[k];
+        const Eigen::Array4d t = upper * inverse[k];
+        first = first.max(s.min(t));
+        last = last.min(s.max(t));
+      }
+    }
+    const Eigen::Array4d missed = beside.max(first - last * (1.0 + 1e-12) - 1e-15);
+    // Infinite where it is above 0.
+    return first + kHuge * (kHuge * missed);
+  };
+  const auto visit = [&](int f) {
+    const Vec3 a = corner(f, 0);
+    const Vec3 b = corner(f, 1);
+    const Vec3 c = corner(f, 2);
+    if (a == start || b == start || c == start) return;
+    const Vec3 ab = b - a;
+    const Vec3 ac = c - a;
+    const Vec3 q = direction.cross(ac);
+    const double determinant = ab.dot(q);
+    if (!(std::abs(determinant) > 1e-12 * ab.norm() * ac.norm())) return;
+    const Vec3 s = start - a;
+    const double u = s.dot(q) / determinant;
+    if (!(u >= -kGrown && u <= 1.0 + kGrown)) return;
+    const Vec3 r = s.cross(ab);
+    const double v = direction.dot(r) / determinant;
+    if (!(v >= -kGrown && u + v <= 1.0 + kGrown)) return;
+    const double t = ac.dot(r) / determinant;
+    if (t >= 0.0 && t < best) best = t;
+  };
+  visitNearest(
+      entries, [&] { return best; },
+      [&](Eigen::Index leaf) {
+        const Eigen::Index end = firstPlace(leaf + 1);
+        for (Eigen::Index i = firstPlace(leaf); i < end; ++i) visit(faceAt(i));
+      });
+  return best < limit ? best : kInfinity;
+}
+
+} // namespace massprops

@@ -1,0 +1,155 @@
+// A hierarchy of boxes around the triangles of a mesh, and what is found with it.
+#pragma once
+
+#include "core/base/types.h"
+#include "core/query/triangle_packet.h"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace massprops {
+
+/// The triangles' numbers in an order in which halves, quarters … of the list are halves, quarters
+/// … in space: cut at the median along the longest side of the box around their centres.
+std::vector<int> spatialOrder(const Points& vertices, const Faces& faces);
+
+/// A complete binary tree over runs of two to four triangles. Refers to the arrays it was made
+/// from.
+class TriangleTree {
+public:
+  enum class Order {
+    Any,     ///< the faces come in any order
+    Spatial, ///< they come in the order of `spatialOrder`, or nearly so
+  };
+  enum class Queries {
+    All,
+    NoDistances, ///< made sooner; `nearest` and the distance of a triangle must not be called
+  };
+  TriangleTree(const Points& vertices, const Faces& faces, Order order = Order::Any,
+               Queries queries = Queries::All);
+
+  /// \param order of the faces, that of `spatialOrder` or nearly so
+  TriangleTree(const Points& vertices, const Faces& faces, std::vector<int> order, Queries queries);
+
+  const Points& vertices() const { return vertices_; }
+  const Faces& faces() const { return faces_; }
+  /// Corners of a box around the triangles.
+  Vec3 lower() const { return box_.lower.cast<double>(); }
+  Vec3 upper() const { return box_.upper.cast<double>(); }
+
+  struct Hit {
+    double squaredDistance = std::numeric_limits<double>::infinity();
+    int face = -1; ///< −1: nothing within the bound
+    Vec3 point = Vec3::Zero();
+  };
+  /// The point of the surface next to `p`, if it is nearer than the bound; quicker with a face that
+  /// is known to be near. What is not within `squaredExact` may be farther than the nearest point
+  /// by 5 %: from the middle of a limb all of it is equally far, and looking for the nearest is
+  /// slow.
+  Hit nearest(const Vec3& p, double squaredBound = std::numeric_limits<double>::infinity(),
+              int hintFace = -1,
+              double squaredExact = std::numeric_limits<double>::infinity()) const;
+  static constexpr double kSlack = 1.05;
+
+  /// Squared distance of a point from one face.
+  double squaredDistance(const Vec3& p, int face) const;
+
+  /// Squared distance, to a billionth, of the triangle (a, b, c) from the surface if below
+  /// `squaredBound`, else that; 0 where they cross.
+  double squaredDistance(const Vec3& a, const Vec3& b, const Vec3& c, double squaredBound) const;
+
+  /// Length along the unit `direction` to the first triangle that does not have `start` as a
+  /// corner, infinity where there is none. A triangle counts as 1e-9 of its size larger, so that
+  /// no ray slips between two.
+  /// `limit`: what is farther is not looked for.
+  double firstHit(const Vec3& start, const Vec3& direction,
+                  double limit = std::numeric_limits<double>::infinity()) const;
+
+  /// Calls visit(i) for the places i ≥ `from` of all triangles whose boxes meet the box, and of
+  /// some of their neighbours.
+  template <class Visit>
+  void forOverlaps(const Vec3& lower, const Vec3& upper, Eigen::Index from,
+                   const Visit& visit) const;
+
+  /// Places 0…m−1 run along the tree.
+  int faceAt(Eigen::Index place) const {
+    return order_.empty() ? static_cast<int>(place) : order_[static_cast<std::size_t>(place)];
+  }
+
+private:
+  /// Around some triangles, or around what is looked for.
+  struct Box {
+    Eigen::Array3f lower, upper;
+  };
+  /// Side by side: a distance from all of them takes one instruction a step.
+  struct FourBoxes {
+    Lanes lower[3], upper[3];
+  };
+
+  static Box around(const Vec3& lower, const Vec3& upper);
+  Box boxOf(Eigen::Index begin, Eigen::Index end) const;
+  TrianglePacket trianglesOf(Eigen::Index leaf) const;
+  /// Calls visit(leaf) for the leaves in boxes of which `distances`(four boxes) are below
+  /// `reach`(), of four the nearest one first; a visit may bring the reach down.
+  template <class Distances, class Reach, class Visit>
+  void visitNearest(const Distances& distances, const Reach& reach, const Visit& visit) const;
+  /// The same for the squared distances from `box`, in any order.
+  template <class Reach, class Visit>
+  void visitWithin(const Box& box, const Reach& squaredReach, const Visit& visit) const;
+  Eigen::Index firstPlace(Eigen::Index leaf) const { return leaf * faces_.rows() / leaves_; }
+  /// Not more than the squared distances of the boxes from `other`.
+  Lanes squaredGaps(const FourBoxes& boxes, const Box& other) const;
+  Vec3 corner(int face, int k) const { return vertices_.row(faces_(face, k)).transpose(); }
+
+  const Points& vertices_;
+  const Faces& faces_;
+  std::vector<int> order_;  ///< empty: as given
+  Eigen::Index leaves_ = 1; ///< a power of two
+  /// The nodes' numbers: the root is 1, the children of i are 2i and 2i + 1. Entry i holds the
+  /// boxes of its grandchildren 4i … 4i + 3; every other level is passed over.
+  std::vector<FourBoxes> boxes_;
+  int roots_ = 1; ///< where a walk begins, for it to end at the leaves: node 1, or nodes 2 and 3
+  std::vector<TrianglePacket> triangles_; ///< of the leaves
+  Box box_;                               ///< around all
+  /// More than the boxes lose as floats; what far points lose is a share of the gap, as are the
+  /// roundings of its square.
+  float rounding_ = 0.0F;
+  static constexpr float kBelowRounding = 1.0F - 2e-6F;
+};
+
+template <class Visit>
+void TriangleTree::forOverlaps(const Vec3& lower, const Vec3& upper, Eigen::Index from,
+                               const Visit& visit) const {
+  const Box box = around(lower, upper);
+  // Nodes with the leaves below them.
+  struct Range {
+    Eigen::Index node, firstLeaf, leaves;
+  };
+  Range stack[64];
+  int size = 0;
+  for (int root = roots_ - 1; root >= 0; --root) {
+    stack[size++] = {roots_ + root, root * leaves_ / roots_, leaves_ / roots_};
+  }
+  while (size > 0) {
+    const Range e = stack[--size];
+    if (e.node >= leaves_) {
+      const Eigen::Index end = firstPlace(e.firstLeaf + 1);
+      for (Eigen::Index i = std::max(from, firstPlace(e.firstLeaf)); i < end; ++i) visit(i);
+      continue;
+    }
+    const FourBoxes& boxes = boxes_[static_cast<std::size_t>(e.node)];
+    Lanes gap = Lanes::Constant(-std::numeric_limits<float>::infinity());
+    for (int k = 0; k < 3; ++k) {
+      gap = gap.max(boxes.lower[k] - box.upper[k]).max(box.lower[k] - boxes.upper[k]);
+    }
+    const Eigen::Index quarter = e.leaves / 4;
+    for (int k = 3; k >= 0; --k) {
+      const Eigen::Index firstLeaf = e.firstLeaf + k * quarter;
+      if (gap[k] > 0.0F || firstPlace(firstLeaf + quarter) <= from) continue;
+      stack[size++] = {4 * e.node + k, firstLeaf, quarter};
+    }
+  }
+}
+
+} // namespace massprops

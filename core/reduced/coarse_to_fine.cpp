@@ -1,0 +1,70 @@
+#include "core/reduced/coarse_to_fine.h"
+
+#include <vector>
+
+namespace massprops {
+namespace {
+
+template <class Rows>
+Rows rowsOf(const Rows& values, const std::vector<int>& rows) {
+  Rows result(static_cast<Eigen::Index>(rows.size()), values.cols());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    result.row(static_cast<Eigen::Index>(i)) = values.row(rows[i]);
+  }
+  return result;
+}
+
+/// The faces whose corners do not fall together: what is closed stays closed.
+Faces clustered(const Faces& faces, const std::vector<int>& vertexFor) {
+  Faces result(faces.rows(), 3);
+  Eigen::Index kept = 0;
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    const int a = vertexFor[static_cast<std::size_t>(faces(f, 0))];
+    const int b = vertexFor[static_cast<std::size_t>(faces(f, 1))];
+    const int c = vertexFor[static_cast<std::size_t>(faces(f, 2))];
+    if (a != b && b != c && c != a) result.row(kept++) << a, b, c;
+  }
+  result.conservativeResize(kept, 3);
+  return result;
+}
+
+} // namespace
+
+MinimizeResult minimizeCoarseToFine(const OffsetModel& model, const Proxy& proxy, const Goal& goal,
+                                    const Weights& weights, const Vector& start,
+                                    const MinimizeOptions& options) {
+  const Points vertices = rowsOf(model.vertices, proxy.vertexOf);
+  const Points directions = rowsOf(model.directions, proxy.vertexOf);
+  const OffsetBounds bounds{rowsOf(model.inner.lower, proxy.vertexOf),
+                            rowsOf(model.inner.upper, proxy.vertexOf)};
+  const OffsetModel coarse{vertices,
+                           model.faces,
+                           directions,
+                           model.basis,
+                           model.L,
+                           model.mass,
+                           bounds,
+                           {},
+                           clustered(model.innerFaces, proxy.vertexFor),
+                           model.fillDensity,
+                           model.solidMoments};
+  // Of value alone: with the derivatives' difference, too, the solver would run far beyond where
+  // that holds, for offsets end at their bounds.
+  const bool usesInertia = goal.usesInertia();
+  const Moments shift = cavityMoments(model, start, usesInertia).value -
+                        cavityMoments(coarse, start, usesInertia).value;
+  const auto shifted = [&](const Vector& x) {
+    CavityMoments cavity = cavityMoments(coarse, x, usesInertia);
+    cavity.value += shift;
+    return evaluateCavity(model, goal, weights, cavity);
+  };
+  const MinimizeResult rough = minimize(shifted, start, options);
+  MinimizeOptions remaining = options;
+  remaining.objectiveScale = rough.objectiveScale;
+  const auto exact = [&](const Vector& x) { return evaluate(model, goal, weights, x); };
+  MinimizeResult result = minimize(exact, rough.x, remaining);
+  result.evaluations += rough.evaluations;
+  return result;
+}
+
+} // namespace massprops

@@ -1,0 +1,365 @@
+// The best that any cavity could do, against closed forms and brute force.
+#include "core/optimum/optimal_bound.h"
+
+#include "core/model/posed_model.h"
+#include "core/model/solid.h"
+#include "core/pipeline.h"
+#include "core/query/point_in_mesh.h"
+#include "core/query/self_intersection.h"
+#include "core/query/triangle_tree.h"
+#include "samples.h"
+#include "shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <ostream>
+#include <string>
+
+namespace massprops::testing {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+ContactArea square(double side) {
+  const double h = side / 2;
+  return {{{-h, -h}, {h, -h}, {h, h}, {-h, h}}, {}};
+}
+
+TriangleTree treeOf(const TriangleMesh& mesh) {
+  return {mesh.vertices, mesh.faces};
+}
+
+/// Least value of a function with one minimum in [low, high].
+template <class F>
+double leastValue(const F& f, double low, double high) {
+  for (int i = 0; i < 100; ++i) {
+    const double a = low + (high - low) / 3;
+    const double b = high - (high - low) / 3;
+    (f(a) < f(b) ? high : low) = f(a) < f(b) ? b : a;
+  }
+  return f(0.5 * (low + high));
+}
+
+TEST(AdmissibleCells, OfABoxFillTheSmallerBox) {
+  const double wall = 0.07;
+  const TriangleMesh outer = box({1.0, 1.5, 2.0}, 2);
+  const AdmissibleCells cells = admissibleCells(treeOf(outer), wall);
+  const Eigen::Array3d inner = Eigen::Array3d(1.0, 1.5, 2.0) - 2 * wall;
+  const double volume = inner.prod();
+  const Eigen::RowVectorXd sums = cells.colwise().sum();
+  // Parts that an edge cuts are taken for larger than they are.
+  EXPECT_GT(sums[0], volume);
+  EXPECT_NEAR(sums[0], volume, 2e-3 * volume);
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(sums[1 + axis], 0.0, 1e-3 * volume);
+    const double second = volume * inner[axis] * inner[axis] / 12;
+    EXPECT_NEAR(sums[4 + axis], second, 5e-3 * second);
+    EXPECT_NEAR(sums[7 + axis], 0.0, 1e-3 * volume);
+  }
+}
+
+TEST(AdmissibleCells, LeaveOutWhatIsOutsideWhereTheWallIsThinnerThanACell) {
+  const double wall = 1e-3;
+  const TriangleMesh outer = torus(1.0, 0.4, 96, 48);
+  const AdmissibleCells cells = admissibleCells(treeOf(outer), wall, 5000);
+  const double volume = moments(outer.vertices, outer.faces)[0];
+  const double area = 4 * kPi * kPi * 0.4;
+  EXPECT_NEAR(cells.col(0).sum(), volume - area * wall, 1e-2 * volume);
+}
+
+TEST(AdmissibleCells, AreNoneWhereTheWallIsTooThick) {
+  const TriangleMesh outer = box({1.0, 1.0, 1.0}, 1);
+  EXPECT_EQ(admissibleCells(treeOf(outer), 0.6).rows(), 0);
+}
+
+TEST(AdmissibleCells, AreBoundedInNumberForSheetsOfAlmostNoThickness) {
+  const TriangleMesh sheet = box({1.0, 1.0, 1e-12}, 4);
+  EXPECT_LT(admissibleCells(treeOf(sheet), 1e-14).rows(), 1000000);
+}
+
+TEST(OptimalBound, OfAStandingBoxIsHollowAboveItsCentreOfMass) {
+  const double wall = 0.05;
+  const double side = 1.0;
+  const double height = 2.0;
+  const TriangleMesh outer =
+      transformed(box({side, side, height}, 4), Mat3::Identity(), Vec3(0, 0, height / 2));
+  // Without the slab between h and the upper wall: c_z = (V H/2 − A (t² − h²)/2)/(V − A (t − h)).
+  const double V = side * side * height;
+  const double A = std::pow(side - 2 * wall, 2);
+  const double top = height - wall;
+  const double expected = leastValue(
+      [&](double h) {
+        return (V * height / 2 - A * (top * top - h * h) / 2) / (V - A * (top - h));
+      },
+      wall, top);
+  const Moments solid = moments(outer.vertices, outer.faces);
+  const auto goal = makeStandGoal(square(side), {}, 1.0);
+  const OptimalBound limit =
+      optimalBound(*goal, {}, solid, 0.0, admissibleCells(treeOf(outer), wall));
+  const double gain = height / 2 - expected;
+  EXPECT_NEAR(limit.objective, expected, 3e-3 * gain);
+  EXPECT_EQ(limit.violation, 0.0);
+  // The border of the half-space is the height of the centre of mass itself.
+  EXPECT_NEAR(-limit.quadric[0] / limit.quadric[3], expected, 0.02 * height);
+  EXPECT_LT(std::hypot(limit.quadric[1], limit.quadric[2]), 0.02 * limit.quadric[3]);
+}
+
+TEST(OptimalBound, OfASpinningBallIsTwoConesAlongTheAxis) {
+  const double wall = 0.1;
+  const TriangleMesh outer = transformed(sphere(24), Mat3::Identity(), Vec3(0, 0, 1.3));
+  const Moments solid = moments(outer.vertices, outer.faces);
+  // What is within the angle θ of the axis is hollow, in the ball of radius 1 − wall. With a
+  // sector's ∫z² = 4π/15 (1 − cos³θ) r⁵ and ∫(x² + y²) = 4π/15 (2 − 3 cos θ + cos³θ) r⁵.
+  const double r5 = std::pow(1 - wall, 5);
+  const double expected = leastValue(
+      [&](double theta) {
+        const double c = std::cos(theta);
+        const double zz = 1 - r5 * (1 - c * c * c);
+        const double rr = 2 - r5 * (2 - 3 * c + c * c * c);
+        return 2 * std::pow((0.5 * rr + zz) / rr, 2);
+      },
+      0.0, kPi / 2);
+  Weights inertiaOnly;
+  inertiaOnly.centerOfMass = 0.0;
+  const auto goal = makeSpinGoal(solid, inertiaOnly, 1.0);
+  const OptimalBound limit =
+      optimalBound(*goal, inertiaOnly, solid, 0.0, admissibleCells(treeOf(outer), wall));
+  const double gain = 2.0 - expected;
+  EXPECT_NEAR(limit.objective, expected, 5e-3 * gain);
+  EXPECT_LE(limit.violation, 1e-6);
+}
+
+TEST(OptimalBound, OfAHeavyFillingLiesBelow) {
+  const double wall = 0.05;
+  const TriangleMesh outer = transformed(box({1, 1, 2}, 4), Mat3::Identity(), Vec3(0, 0, 1));
+  const Moments solid = moments(outer.vertices, outer.faces);
+  const auto goal = makeStandGoal(square(1.0), {}, 1.0);
+  const double filling = 7.0;
+  // The slab from the lower wall up to h, six times as heavy as before on top.
+  const double A = std::pow(1 - 2 * wall, 2);
+  const double expected = leastValue(
+      [&](double h) {
+        return (2.0 + (filling - 1) * A * (h * h - wall * wall) / 2) /
+               (2.0 + (filling - 1) * A * (h - wall));
+      },
+      wall, 2 - wall);
+  const OptimalBound limit =
+      optimalBound(*goal, {}, solid, filling, admissibleCells(treeOf(outer), wall));
+  EXPECT_NEAR(limit.objective, expected, 3e-3 * (1.0 - expected));
+}
+
+/// Least cost of a body without all that is on one side of a plane: many directions, and every
+/// fiftieth offset in each.
+double bestHalfSpace(const std::function<double(const Moments&)>& costOf, const Moments& solid,
+                     const AdmissibleCells& cells) {
+  double best = std::numeric_limits<double>::infinity();
+  Vec3 centre = Vec3::UnitZ();
+  const Points positions = cells.col(0).cwiseInverse().asDiagonal() * cells.middleCols<3>(1);
+  std::vector<int> order(static_cast<std::size_t>(cells.rows()));
+  double spread = kPi;
+  for (int refinement = 0; refinement < 4; ++refinement) {
+    Vec3 winner = centre;
+    const Mat3 frame = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), centre).toRotationMatrix();
+    for (int i = 0; i <= 10; ++i) {
+      for (int j = 0; j < 16; ++j) {
+        const double theta = spread * i / 10;
+        const double phi = 2 * kPi * j / 16;
+        const Vec3 direction = frame * Vec3(std::sin(theta) * std::cos(phi),
+                                            std::sin(theta) * std::sin(phi), std::cos(theta));
+        const Vector heights = positions * direction;
+        std::iota(order.begin(), order.end(), 0);
+        std::sort(order.begin(), order.end(),
+                  [&](int a, int b) { return heights[a] > heights[b]; });
+        Moments mass = solid;
+        for (std::size_t c = 0; c < order.size(); ++c) {
+          mass -= cells.row(order[c]).transpose();
+          if (c % 50 != 0) continue;
+          const double value = costOf(mass);
+          if (value >= best) continue;
+          best = value;
+          winner = direction;
+        }
+      }
+    }
+    centre = winner;
+    spread /= 5;
+  }
+  return best;
+}
+
+class SampleLimit : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(SampleLimit, IsWhatBruteForceFindsOnVoxels) {
+  const TriangleMesh model = sampleMesh(GetParam());
+  Options options;
+  const Solid solid = makeSolid(model);
+  options.innerLowerBound = 0.02 * solid.diagonal();
+  const PosedModel posed = makePosedModel(solid, options);
+  const AdmissibleCells cells = admissibleCells({posed.vertices, posed.faces}, posed.wall);
+
+  // Plain voxels, in or out by their centre.
+  const Vec3 low = posed.vertices.colwise().minCoeff();
+  const Vec3 high = posed.vertices.colwise().maxCoeff();
+  const double edge = std::cbrt((high - low).prod() / 40000);
+  std::vector<Vec3> centres;
+  for (double x = low.x() + edge / 2; x < high.x(); x += edge)
+    for (double y = low.y() + edge / 2; y < high.y(); y += edge)
+      for (double z = low.z() + edge / 2; z < high.z(); z += edge) centres.emplace_back(x, y, z);
+  Points points(static_cast<Eigen::Index>(centres.size()), 3);
+  for (std::size_t i = 0; i < centres.size(); ++i)
+    points.row(static_cast<Eigen::Index>(i)) = centres[i].transpose();
+  const TriangleTree surface(posed.vertices, posed.faces);
+  Moments voxels = Moments::Zero();
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const Vec3 p = points.row(i).transpose();
+    if (!massprops::isInside(p, surface) ||
+        std::sqrt(surface.nearest(p).squaredDistance) < posed.wall)
+      continue;
+    Moments one;
+    one << 1.0, p, p.cwiseAbs2(), p.x() * p.y(), p.y() * p.z(), p.z() * p.x();
+    voxels += one * edge * edge * edge;
+  }
+  // About ten thousand voxels of which a few thousand are cut by the border, each wrong by a third.
+  const Moments region = cells.colwise().sum().transpose();
+  EXPECT_NEAR(region[0], voxels[0], 0.02 * voxels[0]);
+  for (int k = 1; k < 10; ++k) EXPECT_NEAR(region[k], voxels[k], 0.01 * voxels[0]);
+
+  const auto goal = makeStandGoal(posed.contact, {}, posed.frame.length);
+  const Moments whole = moments(posed.vertices, posed.faces);
+  const double brute = bestHalfSpace(
+      [&](const Moments& mass) {
+        return largestViolation(*goal, mass) > 1e-6 ? std::numeric_limits<double>::infinity()
+                                                    : goal->objective(mass).value;
+      },
+      whole, cells);
+  const OptimalBound limit = optimalBound(*goal, {}, whole, 0.0, cells);
+  const double gain = goal->objective(whole).value - brute;
+  EXPECT_NEAR(limit.objective, brute, 5e-3 * gain);
+}
+
+INSTANTIATE_TEST_SUITE_P(Samples, SampleLimit,
+                         ::testing::Values("box_on_corner", "toy_dinosaur", "leaning_ring"));
+
+class SampleGap : public ::testing::TestWithParam<const char*> {};
+
+double gapAtTwoPerCent(const std::string& sample) {
+  const TriangleMesh model = sampleMesh(sample);
+  Options options;
+  options.goal = sample == "tilted_ellipsoid_top" ? GoalKind::Spin : GoalKind::Stand;
+  options.innerLowerBound = 0.02 * makeSolid(model).diagonal();
+  const Report report = optimizeMassProperties(model, options).report;
+  return std::get<double>(report.at("gap_to_limit"));
+}
+
+TEST_P(SampleGap, IsAtMostFifteenPerCentAtAWallOfTwoPerCent) {
+  const double gap = gapAtTwoPerCent(GetParam());
+  EXPECT_LE(gap, 0.15);
+  EXPECT_GE(gap, 0.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Samples, SampleGap,
+                         ::testing::Values("box_on_corner", "toy_dinosaur", "leaning_ring",
+                                           "leaning_egg", "tilted_ellipsoid_top"));
+
+class BestVerdict : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Samples, BestVerdict, ::testing::Values("leaning_egg", "leaning_skittle"));
+
+TEST_P(BestVerdict, IsTheBestTippingAngleOfAllHalfSpaces) {
+  Options options;
+  const Solid solid = makeSolid(sampleMesh(GetParam()));
+  options.innerLowerBound = 0.02 * solid.diagonal();
+  const PosedModel posed = makePosedModel(solid, options);
+  const AdmissibleCells cells = admissibleCells({posed.vertices, posed.faces}, posed.wall);
+  const Moments whole = moments(posed.vertices, posed.faces);
+  for (const bool isEllipse : {false, true}) {
+    ContactArea area = posed.contact;
+    if (isEllipse) area.radii = Vec2(0.06, 0.04);
+    const auto tilt = [&](const Moments& mass) {
+      return tippingAngle(area, Vec3(mass.segment<3>(1) / mass[0]));
+    };
+    const auto goal = makeStandGoal(area, {}, posed.frame.length);
+    const OptimalBound limit = optimalBound(*goal, {}, whole, 0.0, cells);
+    ASSERT_TRUE(limit.bestVerdict);
+    const double brute =
+        -bestHalfSpace([&](const Moments& mass) { return -tilt(mass); }, whole, cells);
+    // The search looks at every fiftieth of ten thousand cells and at directions some degrees
+    // apart in the last of its refinements.
+    EXPECT_NEAR(tilt(*limit.bestVerdict), brute, 0.02);
+    EXPECT_GE(tilt(*limit.bestVerdict), tilt(limit.massMoments) - 1e-6);
+    EXPECT_LT(tilt(*limit.bestVerdict), 0.0);
+  }
+}
+
+struct Impossible {
+  std::string name;
+  std::string sample;
+  GoalKind goal;
+  std::function<void(Options&)> change;
+  std::string best; ///< words about the best that could be had
+};
+
+void PrintTo(const Impossible& impossible, std::ostream* os) {
+  *os << impossible.name;
+}
+
+class OutOfReach : public ::testing::TestWithParam<Impossible> {};
+INSTANTIATE_TEST_SUITE_P(
+    EveryGoal, OutOfReach,
+    ::testing::Values(
+        Impossible{"Stand", "leaning_egg", GoalKind::Stand, [](Options&) {},
+                   "the best possible tipping angle is -4."},
+        Impossible{"Spin", "tilted_ellipsoid_top", GoalKind::Spin,
+                   [](Options& o) { o.pivot = Vec3(15.0, 0.0, 0.0); }, "off the axis"},
+        Impossible{"YoYo", "uneven_yo_yo", GoalKind::YoYo,
+                   [](Options& o) { o.pivot = Vec3(0.0, 0.0, 100.0); }, "off the middle"},
+        Impossible{"StandEmptyAndFilled", "leaning_egg", GoalKind::StandEmptyAndFilled,
+                   [](Options& o) { o.fillDensity = 0.6; }, "outside of the contact area"},
+        Impossible{"RollUpright", "leaning_egg", GoalKind::RollUpright, [](Options&) {},
+                   "outside of the contact area"},
+        Impossible{"Float", "bath_duck", GoalKind::Float, [](Options& o) { o.waterLevel = 0.05; },
+                   "too heavy"},
+        Impossible{"Hang", "hanging_fish", GoalKind::Hang,
+                   [](Options& o) { o.pivot = Vec3(60.0, 0.0, 200.0); }, "off the plumb line"},
+        Impossible{"Mass", "game_piece", GoalKind::Mass, [](Options& o) { o.targetMass = 1.0; },
+                   "too large"}),
+    [](const auto& test) { return test.param.name; });
+
+TEST_P(OutOfReach, IsSaidWithTheBestThatCouldBeHad) {
+  Options options;
+  options.goal = GetParam().goal;
+  GetParam().change(options);
+  const Report report = optimizeMassProperties(sampleMesh(GetParam().sample), options).report;
+  EXPECT_FALSE(std::get<bool>(report.at("solved")));
+  const std::string message = std::get<std::string>(report.at("message"));
+  const std::size_t limit =
+      message.find("No cavity of any shape that keeps this wall can reach it");
+  ASSERT_NE(limit, std::string::npos) << message;
+  EXPECT_NE(message.find(GetParam().best, limit), std::string::npos) << message;
+  EXPECT_EQ(message.back(), '.');
+  if (GetParam().goal == GoalKind::Stand) {
+    const auto angle = [&](const char* key) { return std::get<double>(report.at(key)); };
+    EXPECT_GE(angle("tip_angle_best"), angle("tip_angle_limit"));
+    EXPECT_GE(angle("tip_angle_best"), angle("tip_angle_after"));
+  }
+}
+
+TEST(OffsetsTowardsLimit, BeginWhereTheQuadricIsPositive) {
+  const TriangleMesh ball = sphere(6);
+  OptimalBound limit;
+  limit.quadric << -0.25, 0, 0, 1, 0, 0, 0, 0, 0, 0; // z > 0.25
+  const Vector lower = Vector::Constant(ball.vertices.rows(), 0.1);
+  const Vector upper = Vector::Constant(ball.vertices.rows(), 0.9);
+  const Vector offsets = offsetsTowards(limit, ball.vertices, ball.vertices, lower, upper);
+  for (Eigen::Index v = 0; v < offsets.size(); ++v) {
+    const double z = ball.vertices(v, 2);
+    EXPECT_EQ(offsets[v], z * 0.9 > 0.25 ? 0.1 : 0.9) << "at height " << z;
+  }
+}
+
+} // namespace
+} // namespace massprops::testing
