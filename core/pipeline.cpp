@@ -1,326 +1,285 @@
 #include "core/pipeline.h"
 
+#include "core/answer/delivery.h"
 #include "core/answer/hollowing_report.h"
 #include "core/base/parallel.h"
 #include "core/base/stopwatch.h"
-#include "core/mesh/components.h"
-#include "core/mesh/decimation.h"
 #include "core/model/frame.h"
 #include "core/model/posed_model.h"
 #include "core/model/solid.h"
 #include "core/optimum/optimal_bound.h"
-#include "core/reduced/cavity_search.h"
-#include "core/reduced/harmonics.h"
-#include "core/reduced/laplacian.h"
-#include "core/reduced/offset_field.h"
-#include "core/reduced/skeleton.h"
+#include "core/reduced/moving_surface.h"
+#include "core/reduced/schedule.h"
+#include "core/reduced/search_strategy.h"
 
 #include <algorithm>
 #include <functional>
+#include <memory>
+#include <new>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace massprops {
 namespace {
 
-/// Of the diagonal: smooths the noise of the skeleton's correspondence and keeps its shape.
-constexpr double kDiffusionLength = 0.02;
+/// Reports to the caller how far the run has come; never goes back.
+class ProgressBar {
+public:
+  explicit ProgressBar(const Progress& progress) : progress_(progress) {}
 
-/// Above this gap another search, with other directions, is worth its time.
-constexpr double kFarFromLimit = 0.075;
+  void show(int percent, const char* stage) {
+    percent_ = std::max(percent_, percent);
+    if (progress_) progress_(percent_, stage);
+  }
 
-/// What moves inwards is as fine as a cavity has to be: on finer ones, the objective does not
-/// improve by more than the one or two per cent that it scatters by. In working lengths.
-constexpr Coarseness kCage{12000, 3000, 1.5e-4};
+  /// The share of a stage that takes the bar from one percentage to another.
+  std::function<void(double)> within(int from, int to, const char* stage) {
+    return [=](double share) { show(from + static_cast<int>((to - from) * share), stage); };
+  }
 
-/// Skeleton and basis are smooth: their proxy leads to cavities as good as the whole surface does
-/// (benchmarks/results.md).
-constexpr Coarseness kProxy{2400, 600, 3e-4};
-
-/// A function of the basis needs a few vertices to have a shape.
-Coarseness carrying(int basisSize, const Coarseness& wanted) {
-  constexpr Eigen::Index kVerticesAFunction = 4;
-  const Eigen::Index needed = kVerticesAFunction * basisSize;
-  return {std::max(wanted.most, needed), std::max(wanted.least, needed), wanted.distance};
-}
-
-/// Per cent of the time at which stages begin. Seconds a vertex were measured on one machine; only
-/// their ratios count.
-struct Schedule {
-  int copy, skeleton, directions, search;
-  static constexpr int kEnd = 95;
+private:
+  const Progress& progress_;
+  int percent_ = 0;
 };
 
-Schedule scheduleFor(Eigen::Index vertexCount, int basisSize, bool isCopied) {
-  const auto n = static_cast<double>(vertexCount);
-  const auto cage = static_cast<double>(carrying(basisSize, kCage).most);
-  const auto proxy = static_cast<double>(carrying(basisSize, kProxy).most);
-  const double moving = isCopied ? std::min(n, 0.8 * cage) : n;
-  const double check = 7e-7 * n;
-  const double copy = isCopied ? 7e-7 * n + 1.2e-6 * std::min(n, cage) : 0.0;
-  const double skeleton = 2.7e-5 * std::min(n, proxy) + 6e-7 * n;
-  const double directions = 2.3e-6 * moving;
-  const double search = 1.25e-5 * moving + 6e-7 * n;
-  const double total = check + copy + skeleton + directions + search;
-  const auto percent = [&](double seconds) {
-    return static_cast<int>(Schedule::kEnd * seconds / total);
+PosedModel posed(const Solid& solid, const Options& options) {
+  requireSensible(options, solid.vertices().rows(), solid.diagonal());
+  PosedModel result = makePosedModel(solid, options);
+  if (result.open) requireSensibleForShell(options);
+  return result;
+}
+
+bool moves(const Options& options) {
+  return options.outerUpperBound > 0.0;
+}
+
+/// The model, checked and put upright, and what follows from it alone. Neither copied nor moved,
+/// for its parts refer to each other.
+struct Preparation {
+  Preparation(const TriangleMesh& model, const Options& options)
+      : solid(makeSolid(model, options.openSurface, rotationToUp(options.upAxis),
+                        CrossingCheck::Later)),
+        piece(posed(solid, options)),
+        surface(piece.vertices, piece.open ? piece.open->skin : piece.faces,
+                TriangleTree::Order::Spatial),
+        solidMoments(moments(piece.vertices, piece.faces)),
+        goal(makeGoal(options, piece, piece.vertices)),
+        isDecimated(!options.fullResolution && !moves(options) && !piece.open),
+        schedule(scheduleFor(piece.vertices.rows(), options.basisSize, isDecimated)) {}
+  Preparation(const Preparation&) = delete;
+  Preparation& operator=(const Preparation&) = delete;
+
+  const Solid solid;
+  const PosedModel piece;
+  const TriangleTree surface;
+  const Moments solidMoments; ///< of the outer surface, working frame
+  const std::unique_ptr<Goal> goal;
+  const bool isDecimated; ///< whether a copy moves inwards
+  const Schedule schedule;
+};
+
+/// What moves inwards, and what the best of all cavities could do.
+struct Foundation {
+  Coarsening coarse;
+  std::optional<OptimalBound> bound;
+  double secondsBound = 0.0, secondsCrossings = 0.0;
+};
+
+/// A stage that failed may have done so for crossings that nobody has looked for yet; otherwise
+/// the user learns what can be done about it.
+[[noreturn]] void explain(const std::exception& failure, const Solid& solid) {
+  requireNoCrossings(solid);
+  throw std::runtime_error(std::string("This mesh is too uneven to be calculated with (") +
+                           failure.what() +
+                           "): use Remeshing > Isotropic Explicit Remeshing, then run again.");
+}
+
+Foundation coarsenAndBound(const Preparation& model, const Options& options, ProgressBar& bar) {
+  Foundation result;
+  const auto checkCrossings = [&] {
+    const Stopwatch time;
+    requireNoCrossings(model.solid);
+    result.secondsCrossings = time.seconds();
   };
-  return {percent(check), percent(check + copy), percent(check + copy + skeleton),
-          percent(check + copy + skeleton + directions)};
+  const auto findBound = [&] {
+    if (moves(options) || model.piece.open) return;
+    const Stopwatch time;
+    const AdmissibleCells cells = admissibleCells(model.surface, model.piece.wall);
+    if (cells.rows() == 0) return;
+    result.bound = optimalBound(*model.goal, options.weights, model.solidMoments,
+                                fillingSeenBy(options), cells);
+    result.secondsBound = time.seconds();
+  };
+  const auto coarsenModel = [&] {
+    bar.show(model.schedule.copy, "Coarse copies");
+    const CoarseningOptions wanted{options.basisSize, model.isDecimated, !options.fullResolution,
+                                   options.weights.smoothness > 0.0};
+    result.coarse = coarsen(
+        model.piece, wanted,
+        [&] { bar.show(model.schedule.skeleton, "Mean curvature skeleton and harmonic basis"); },
+        checkCrossings);
+  };
+  try {
+    // The bound needs no copies: both cores work.
+    inParallel(findBound, coarsenModel);
+  } catch (const InvalidInput&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& failure) {
+    explain(failure, model.solid);
+  }
+  return result;
 }
 
-/// What moves inwards, and the smooth functions that move it, which live on a still coarser copy.
-struct CoarseSurface {
-  CoarseCopy cage;
-  Vector mass; ///< of the cage, lumped, total 1
-  Proxy proxy;
-  Interpolation interpolation; ///< of the cage's vertices by the proxy's
-  SparseMatrix laplacian;      ///< of the proxy
-  Vector area;                 ///< that the proxy's vertices stand for on the cage
-  Skeleton skeleton;
-  HarmonicBasis basis;
-};
-
-/// `beside`: work for the core that the skeleton leaves free.
-CoarseSurface coarseSurface(const PosedModel& posed, const Coarseness& forCage,
-                            const Coarseness& forProxy, int basisSize,
-                            const std::function<void()>& tellCopied,
-                            const std::function<void()>& beside, Stages& stages) {
-  const Stopwatch copying;
-  CoarseCopy cage = coarseCopy(posed.vertices, posed.faces, forCage);
-  Proxy proxy = makeProxy(cage.mesh.vertices, cage.mesh.faces, forProxy);
-  stages.secondsCopy = copying.seconds();
-  tellCopied();
-  const Vector cageArea = vertexLumpedMass(cage.mesh.vertices, cage.mesh.faces);
-  Interpolation interpolation = Interpolation::identity(cageArea.size());
-  SparseMatrix laplacian;
-  Vector area;
-  HarmonicBasis basis;
-  Skeleton skeleton;
-  inParallel(
-      [&] {
-        const Stopwatch time;
-        interpolation = interpolationFrom(proxy, cage.mesh.vertices);
-        area = interpolation.transposeTimes(cageArea);
-        laplacian = cotanLaplacian(proxy.mesh.vertices, proxy.mesh.faces);
-        basis = harmonicBasis(proxy.mesh.vertices, proxy.mesh.faces, laplacian, area / area.sum(),
-                              basisSize);
-        stages.secondsBasis = time.seconds();
-        beside();
-      },
-      [&] {
-        const Stopwatch time;
-        skeleton = meanCurvatureSkeleton(proxy.mesh.vertices, proxy.mesh.faces);
-        stages.secondsSkeleton = time.seconds();
-      });
-  stages.skeletonFailures = skeleton.failedComponents;
-  return {std::move(cage), cageArea / cageArea.sum(), std::move(proxy),    std::move(interpolation),
-          laplacian,       std::move(area),           std::move(skeleton), std::move(basis)};
+/// How far offsets along the field may go for a wall to be kept.
+OffsetBounds boundsKeeping(double wall, const Preparation& model, const MovingSurface& moving,
+                           const OffsetField& field, const Options& options) {
+  const bool isCopy = moving.vertices.rows() < model.piece.vertices.rows();
+  const auto bounds = isCopy ? innerBoundsOfCopy : innerBounds;
+  return keepingWall(moving.vertices, model.surface, field,
+                     bounds(field, wall, options.innerUpperBound), wall);
 }
 
-/// The outer surface keeps the point that the body hangs from.
-void holdTop(const Points& vertices, OffsetBounds& bounds) {
+/// The outer surface's own bounds; it keeps the point that the body hangs from.
+OffsetBounds boundsOfOuter(const Preparation& model, const OffsetField& field,
+                           const Options& options) {
+  const PosedModel& piece = model.piece;
+  OffsetBounds bounds =
+      outerBounds(piece.vertices, field, options.outerLowerBound / piece.frame.length,
+                  options.outerUpperBound / piece.frame.length);
+  if (options.goal != GoalKind::Hang || piece.pivot) return bounds;
   constexpr double kTop = 1e-4; // as at the ground contacts
-  const double top = vertices.col(2).maxCoeff();
-  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
-    if (vertices(v, 2) >= top - kTop) bounds.lower[v] = bounds.upper[v] = 0.0;
+  const double top = piece.vertices.col(2).maxCoeff();
+  for (Eigen::Index v = 0; v < piece.vertices.rows(); ++v) {
+    if (piece.vertices(v, 2) >= top - kTop) bounds.lower[v] = bounds.upper[v] = 0.0;
   }
+  return bounds;
 }
 
-/// The greatest wall below the wanted one that leaves room for a cavity, within an eighth of it; 0
-/// when none was found down to a thousandth. Near its limit the search finds a cavity at one wall
-/// and none at a slightly thinner one, so that a wall counts only when a thinner one works, too.
-double largestWall(CavityTask task, const std::function<OffsetBounds(double)>& boundsFor) {
-  const auto hasRoom = [&](double wall) {
-    task.wall = wall;
-    task.inner = boundsFor(wall);
-    return leavesRoom(task);
+Points representable(const Options& options, const Points& points) {
+  return options.representable ? options.representable(points) : points;
+}
+
+/// The search for a cavity with offsets along directions of at least this clearance.
+CavityTask taskAlong(double wantedClearance, const Preparation& model, const Foundation& foundation,
+                     const Options& options) {
+  const PosedModel& piece = model.piece;
+  const MovingSurface& moving = *foundation.coarse.moving;
+  const Points& axis = foundation.coarse.axis;
+  OffsetField field =
+      piece.open
+          ? offsetField(moving.vertices, piece.open->skin,
+                        levelAtRim(moving.vertices, moving.faces, piece.isLid, *piece.open, axis),
+                        wantedClearance)
+          : offsetField(moving.vertices, moving.faces, axis, wantedClearance);
+  CavityTask task{model.surface, *model.goal, {}, options.weights};
+  task.model.surface = foundation.coarse.moving;
+  task.model.inner = boundsKeeping(piece.wall, model, moving, field, options);
+  if (moves(options)) task.model.outer = boundsOfOuter(model, field, options);
+  task.model.field = std::move(field);
+  task.model.fillDensity = fillingSeenBy(options);
+  task.model.solidMoments = model.solidMoments;
+  task.model.isOpen = piece.open.has_value();
+  if (piece.open) task.open = &*piece.open;
+  task.inputMoments = model.solidMoments + moments(piece.cavities.vertices, piece.cavities.faces);
+  task.wall = piece.wall;
+  task.bound = foundation.bound;
+  const bool followsOuter =
+      options.goal == GoalKind::Float || options.goal == GoalKind::StandEmptyAndFilled;
+  if (moves(options) && followsOuter) {
+    task.goalFor = [&](const Points& outer) { return makeGoal(options, piece, outer); };
+  }
+  task.deliverable = [&](const Points& working) {
+    return toWorking(piece.frame, representable(options, toModel(piece.frame, working)));
   };
-  const auto works = [&](double wall) { return hasRoom(wall) && hasRoom(0.99 * wall); };
-  const OffsetBounds thinnest = boundsFor(0.0);
-  double tooThick =
-      std::min(task.wall, thinnest.upper.cwiseProduct(task.field.clearance).maxCoeff());
-  double found = 0.0;
-  constexpr int kHalvings = 10;
-  for (int i = 0; i < kHalvings && found == 0.0 && tooThick > 0.0; ++i) {
-    const double half = 0.5 * tooThick;
-    (works(half) ? found : tooThick) = half;
+  return task;
+}
+
+/// What was asked for, and the best answer.
+struct Search {
+  CavityTask task;
+  CavityResult cavity;
+  double largestWall = 0.0; ///< working length; when the wanted one leaves no room
+  double secondsLargestWall = 0.0;
+};
+
+Search search(const Preparation& model, const Foundation& foundation, const Options& options,
+              ProgressBar& bar) {
+  bar.show(model.schedule.directions, "Offset directions");
+  Search result{taskAlong(kSlantedClearance, model, foundation, options), {}};
+  bar.show(model.schedule.search, "Optimization");
+  result.cavity = bestCavity(
+      result.task, [&] { return taskAlong(kSteepClearance, model, foundation, options); },
+      bar.within(model.schedule.search, Schedule::kEnd, "Optimization"));
+  if (result.cavity.status != CavityStatus::NoRoom) return result;
+
+  const Stopwatch time;
+  constexpr int kFound = 99; // before the report
+  result.largestWall = largestWall(
+      result.task,
+      [&](double wall) {
+        return boundsKeeping(wall, model, *foundation.coarse.moving, result.task.model.field,
+                             options);
+      },
+      bar.within(Schedule::kEnd, kFound, "Largest wall that leaves room"));
+  result.secondsLargestWall = time.seconds();
+  return result;
+}
+
+Result answer(const Preparation& model, const Foundation& foundation, const Search& search,
+              const Options& options, double secondsCheck, ProgressBar& bar) {
+  bar.show(Schedule::kEnd, "Report");
+  Result result;
+  Delivery delivery =
+      deliver(model.solid, model.piece, search.task, search.cavity, foundation.coarse.vertexOf,
+              [&](const Points& points) { return representable(options, points); });
+  result.inner = std::move(delivery.inner);
+  result.innerWall = std::move(delivery.innerWall);
+  result.outer = std::move(delivery.outer);
+
+  const Coarsening& coarse = foundation.coarse;
+  Stages stages;
+  stages.repairs = model.solid.repairs().describe();
+  stages.skeletonFailures = coarse.skeletonFailures;
+  stages.largestWall = search.largestWall;
+  stages.secondsCheck = secondsCheck + foundation.secondsCrossings;
+  stages.secondsCopy = coarse.secondsCopy;
+  stages.secondsSkeleton = coarse.secondsSkeleton;
+  stages.secondsBasis = coarse.secondsBasis;
+  stages.secondsLimit = foundation.secondsBound;
+  stages.secondsLargestWall = search.secondsLargestWall;
+  // A verdict may depend on the outer surface as it has become.
+  const bool isFound = search.cavity.status == CavityStatus::Found;
+  const std::unique_ptr<Goal> reached =
+      isFound ? makeGoal(options, model.piece, search.cavity.outer) : nullptr;
+  result.report = hollowingReport(model.piece, search.task, reached ? *reached : *model.goal,
+                                  search.cavity, options, stages);
+  if (reached && options.showAnswer) {
+    bar.show(97, "Picture of the answer");
+    result.picture = pictureOf(model.piece, search.task, *reached, search.cavity);
   }
-  constexpr int kBisections = 3;
-  for (int i = 0; i < kBisections && found > 0.0; ++i) {
-    const double middle = 0.5 * (found + tooThick);
-    (works(middle) ? found : tooThick) = middle;
-  }
-  return found;
+  return result;
 }
 
 } // namespace
 
 Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
                               const Progress& progress) {
-  const auto tell = [&](int percent, const char* stage) {
-    if (progress) progress(percent, stage);
-  };
   const Stopwatch total;
   const ThreadTeam team;
-  Stages stages;
+  ProgressBar bar(progress);
 
-  tell(0, "Checking the model");
-  const Solid solid =
-      makeSolid(model, options.openSurface, rotationToUp(options.upAxis), CrossingCheck::Later);
-  requireSensible(options, solid.vertices().rows(), solid.diagonal());
-  const PosedModel posed = makePosedModel(solid, options);
-  if (posed.open) requireSensibleForShell(options);
-  const TriangleTree surface(posed.vertices, posed.open ? posed.open->skin : posed.faces,
-                             TriangleTree::Order::Spatial);
+  bar.show(0, "Checking the model");
+  const Preparation prepared(model, options);
+  const double secondsCheck = total.seconds();
+  const Foundation foundation = coarsenAndBound(prepared, options, bar);
+  const Search found = search(prepared, foundation, options, bar);
+  Result result = answer(prepared, foundation, found, options, secondsCheck, bar);
 
-  const bool needsAll = options.fullResolution || options.outerUpperBound > 0.0 || posed.open;
-  const Eigen::Index n = posed.vertices.rows();
-  const Schedule schedule = scheduleFor(n, options.basisSize, !needsAll);
-  stages.secondsCheck = total.seconds();
-
-  const Moments solidMoments = moments(posed.vertices, posed.faces);
-  const std::unique_ptr<Goal> goal = makeGoal(options, posed, posed.vertices);
-  const Coarseness whole{n, n, 0.0};
-  std::optional<OptimalBound> limit;
-  std::optional<CoarseSurface> coarse;
-  const auto checkCrossings = [&] {
-    const Stopwatch time;
-    requireNoCrossings(solid);
-    stages.secondsCheck += time.seconds();
-  };
-  const auto findLimit = [&] {
-    if (options.outerUpperBound > 0.0 || posed.open) return;
-    const Stopwatch time;
-    const AdmissibleCells cells = admissibleCells(surface, posed.wall);
-    if (cells.rows() == 0) return;
-    limit = optimalBound(*goal, options.weights, solidMoments, fillingSeenBy(options), cells);
-    stages.secondsLimit = time.seconds();
-  };
-  const auto makeCoarseSurface = [&] {
-    tell(schedule.copy, "Coarse copies");
-    coarse.emplace(coarseSurface(
-        posed, needsAll ? whole : carrying(options.basisSize, kCage),
-        options.fullResolution ? whole : carrying(options.basisSize, kProxy), options.basisSize,
-        [&] { tell(schedule.skeleton, "Mean curvature skeleton and harmonic basis"); },
-        checkCrossings, stages));
-  };
-  try {
-    // The limit needs no copies: both cores work.
-    inParallel(findLimit, makeCoarseSurface);
-  } catch (const InvalidInput&) {
-    throw;
-  } catch (const std::runtime_error&) {
-    // A stage that fails may do so for crossings that nobody has looked for yet.
-    requireNoCrossings(solid);
-    throw;
-  }
-  const bool isCopy = coarse->cage.mesh.vertices.rows() < n;
-  const Points& x = coarse->cage.mesh.vertices;
-  const Faces& faces = coarse->cage.mesh.faces;
-  stages.repairs = solid.repairs().describe();
-
-  tell(schedule.directions, "Offset directions");
-  const Points axis = smoothedOverSurface(coarse->skeleton.points, coarse->laplacian, coarse->area,
-                                          kDiffusionLength);
-  Points fineAxis = coarse->interpolation * axis;
-  if (posed.open) fineAxis = levelAtRim(x, faces, posed.isLid, *posed.open, fineAxis);
-  const Faces& skin = posed.open ? posed.open->skin : faces;
-  OffsetField field = offsetField(x, skin, fineAxis);
-
-  tell(schedule.search, "Optimization");
-  const auto representable = [&](const Points& points) {
-    return options.representable ? options.representable(points) : points;
-  };
-  const SparseMatrix L =
-      options.weights.smoothness > 0.0 ? cotanLaplacian(x, faces) : SparseMatrix();
-  CavityTask task{surface, x, faces, field, coarse->basis, L, coarse->mass, *goal, options.weights};
-  if (!coarse->interpolation.isIdentity()) {
-    task.interpolation = &coarse->interpolation;
-    task.proxy = &coarse->proxy;
-  }
-  if (posed.open) task.open = &*posed.open;
-  task.solidMoments = solidMoments;
-  task.fillDensity = fillingSeenBy(options);
-  task.limit = limit;
-  task.wall = posed.wall;
-  task.inputMoments = solidMoments + moments(posed.cavities.vertices, posed.cavities.faces);
-  const auto boundsFor = [&](double wall) {
-    const auto bounds = isCopy ? innerBoundsOfCopy : innerBounds;
-    return keepingWall(x, surface, field, bounds(field, wall, options.innerUpperBound), wall);
-  };
-  task.inner = boundsFor(task.wall);
-  if (options.outerUpperBound > 0.0) {
-    task.outer = outerBounds(posed.vertices, field, options.outerLowerBound / posed.frame.length,
-                             options.outerUpperBound / posed.frame.length);
-    if (options.goal == GoalKind::Hang && !posed.pivot) holdTop(posed.vertices, *task.outer);
-    if (options.goal == GoalKind::Float || options.goal == GoalKind::StandEmptyAndFilled) {
-      task.goalFor = [&](const Points& outer) { return makeGoal(options, posed, outer); };
-    }
-  }
-  task.deliverable = [&](const Points& working) {
-    return toWorking(posed.frame, representable(toModel(posed.frame, working)));
-  };
-  int percent = schedule.search;
-  const auto tellSearch = [&](double share) {
-    percent = std::max(percent, schedule.search +
-                                    static_cast<int>((Schedule::kEnd - schedule.search) * share));
-    tell(percent, "Optimization");
-  };
-  const auto isUseless = [&](const CavityResult& found) {
-    // A shell is asked for whatever a solid body could do.
-    return !posed.open && found.status == CavityStatus::Found && !isBetterThanSolid(task, found);
-  };
-  CavityResult cavity = searchCavity(task, tellSearch);
-  if (task.limit && isUseless(cavity)) {
-    // What was trimmed off later may have been what the start near the limit lived on.
-    CavityTask plain = task;
-    plain.limit.reset();
-    cavity = searchCavity(plain, tellSearch);
-  }
-  // The limit knows nothing of smoothness.
-  if (options.weights.smoothness == 0.0 && gapToLimit(task, cavity) > kFarFromLimit) {
-    field = offsetField(x, skin, fineAxis, kSteepClearance);
-    task.inner = boundsFor(task.wall);
-    CavityResult steep = searchCavity(task, tellSearch);
-    const bool isSteepBetter = isBetter(task, steep, cavity);
-    addEffort(isSteepBetter ? cavity : steep, isSteepBetter ? steep : cavity);
-    if (isSteepBetter) cavity = std::move(steep);
-  }
-  if (isUseless(cavity)) cavity.status = CavityStatus::NoGain;
-  if (cavity.status == CavityStatus::NoRoom) stages.largestWall = largestWall(task, boundsFor);
-
-  tell(Schedule::kEnd, "Report");
-  Result result;
-  if (cavity.status == CavityStatus::Found) {
-    const std::vector<int> places = placesInSolid(posed, coarse->cage.vertexOf);
-    Points positions = representable(toModel(posed.frame, placed(cavity.inner, places)));
-    Faces cavityFaces = cavity.cavity.faces;
-    if (posed.open) {
-      // The strips end in the very points of the model.
-      positions.bottomRows(n) = solid.vertices();
-      cavityFaces = withoutLids(cavityFaces, n);
-    }
-    Submesh inner = submesh(positions, placed(cavityFaces, places));
-    result.inner = std::move(inner.mesh);
-    if (result.inner.faces.rows() > 0) {
-      result.inner.faces.col(1).swap(result.inner.faces.col(2));
-    }
-    result.innerWall = placed(cavity.inspection.wall, places)(inner.vertexOf) * posed.frame.length;
-    if (task.outer || posed.cavities.faces.rows() > 0) {
-      result.outer = TriangleMesh{
-          representable(toModel(posed.frame, placed(cavity.outer, posed.vertexOf))), solid.faces()};
-    }
-  }
-  // A verdict may depend on the outer surface as it has become.
-  const std::unique_ptr<Goal> reached =
-      cavity.status == CavityStatus::Found ? makeGoal(options, posed, cavity.outer) : nullptr;
-  result.report = hollowingReport(posed, task, reached ? *reached : *goal, cavity, options, stages);
-  if (reached && options.showAnswer) {
-    tell(97, "Picture of the answer");
-    result.picture = pictureOf(posed, task, *reached, cavity);
-  }
   result.report.add("seconds_total", total.seconds());
-  tell(100, "Done");
+  bar.show(100, "Done");
   return result;
 }
 

@@ -669,6 +669,38 @@ TEST(Pipeline, DeliversAndMeasuresWhatTheCallerCanStore) {
   EXPECT_EQ(intersectingPairs(result.inner), 0U);
 }
 
+TEST(Pipeline, ComparesWithTheBoundWithoutSmoothness) {
+  // For Mass without a target the objective is (m/m_solid)². The bound does not know the offsets,
+  // so that what their smoothness costs is no part of the gap.
+  Options options;
+  options.goal = GoalKind::Mass;
+  options.weights.smoothness = 0.05;
+  const Report report = optimizeMassProperties(blob(5), options).report;
+  const auto number = [&](const char* key) { return std::get<double>(report.at(key)); };
+  const double share = number("mass_after") / number("mass_before");
+  const double limit = number("objective_limit");
+  ASSERT_GT(number("objective_after"), share * share); // smoothness costs something
+  EXPECT_NEAR(number("gap_to_limit"), (share * share - limit) / (1.0 - limit), 1e-9);
+}
+
+TEST(Pipeline, ShowsProgressAndTimeOfTheSearchForALargerWall) {
+  Options options;
+  options.goal = GoalKind::Mass;
+  options.innerLowerBound = 0.45; // of a ball of diameter 1: nearly all of it
+  int last = 0;
+  int steps = 0;
+  const Progress progress = [&](int percent, const char* stage) {
+    EXPECT_GE(percent, last);
+    last = percent;
+    if (std::string(stage).find("Largest wall") != std::string::npos) ++steps;
+  };
+  const Report report = optimizeMassProperties(scaled(sphere(4), 0.5), options, progress).report;
+  ASSERT_EQ(std::get<int>(report.at("cavity_components")), 0);
+  EXPECT_GT(steps, 1);
+  EXPECT_EQ(last, 100);
+  EXPECT_GT(std::get<double>(report.at("seconds_largest_wall")), 0.0);
+}
+
 TEST(Pipeline, TellsItsProgressInOrder) {
   std::vector<int> percents;
   std::vector<std::string> stages;

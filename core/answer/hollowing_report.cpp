@@ -1,54 +1,15 @@
 #include "core/answer/hollowing_report.h"
 
+#include "core/reduced/hollow_body.h"
+
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <vector>
 
 namespace massprops {
 namespace {
 
-/// Constraints hold when they are violated by no more than this share of the model's size.
 constexpr double kFeasibility = 1e-6;
-
-/// The body that a search ends with, measured on its triangles.
-struct Body {
-  Moments mass; ///< working frame, material of density 1
-  double volume = 0.0;
-  double objective = 0.0;
-  double violation = 0.0;
-};
-
-/// The model as it came in, existing cavities and all.
-Body inputBody(const CavityTask& task) {
-  const double share = task.inputMoments[0] / task.solidMoments[0];
-  return {
-      task.inputMoments, task.inputMoments[0],
-      objectiveValue(task.goal, task.weights, task.inputMoments, share, task.L, {}, task.mass, {}),
-      largestViolation(task.goal, task.inputMoments)};
-}
-
-Body hollowBody(const CavityTask& task, const CavityResult& cavity) {
-  const Moments inner = moments(cavity.inner, cavity.cavity.faces);
-  const Moments outer = outerMoments(task, cavity);
-  Body body;
-  body.mass = shellMoments(outer, inner, 1.0, task.fillDensity);
-  body.volume = outer[0] - inner[0];
-  const std::unique_ptr<Goal> moved = task.goalFor ? task.goalFor(cavity.outer) : nullptr;
-  const Goal& goal = moved ? *moved : task.goal;
-  body.objective = objectiveValue(goal, task.weights, body.mass, body.volume / task.solidMoments[0],
-                                  task.L, cavity.innerOffsets, task.mass, cavity.outerOffsets);
-  body.violation = largestViolation(goal, body.mass);
-  return body;
-}
-
-bool servesBetter(const CavityTask& task, const Body& a, const Body& b) {
-  const bool constrained = task.weights.constraints > 0.0;
-  if (constrained && std::max(a.violation, b.violation) > kFeasibility) {
-    return a.violation < b.violation;
-  }
-  return a.objective < b.objective;
-}
 
 /// A body in the model's own coordinates and in grams.
 MassProperties inModel(const Moments& massMoments, const Frame& frame, double density) {
@@ -63,26 +24,14 @@ MassProperties inModel(const Moments& massMoments, const Frame& frame, double de
   return body;
 }
 
-/// Share of what a cavity could gain that is not gained: in the objective where it can be compared,
-/// else in the violation of the constraints.
-double gapToLimit(const OptimalBound& limit, const Body& before, const Body& after) {
-  const auto gap = [](double ours, double best, double solid) {
-    return solid > best ? std::max(0.0, ours - best) / (solid - best) : 0.0;
-  };
-  const bool comparable = std::max(after.violation, limit.violation) <= kFeasibility &&
-                          before.objective > limit.objective;
-  return comparable ? gap(after.objective, limit.objective, before.objective)
-                    : gap(after.violation, limit.violation, before.violation);
-}
-
 /// What a cavity of any shape could do about a goal that is missed.
 std::string outlook(const CavityTask& task) {
-  if (!task.limit) return "";
-  if (task.limit->violation <= OptimalBound::kReachable) {
+  if (!task.bound) return "";
+  if (task.bound->violation <= OptimalBound::kReachable) {
     return " A cavity of another shape could reach it.";
   }
   return " No cavity of any shape that keeps this wall can reach it: " +
-         task.goal.bestInWords(task.limit->bestVerdict.value_or(task.limit->massMoments)) + ".";
+         task.goal.bestInWords(task.bound->bestVerdict.value_or(task.bound->massMoments)) + ".";
 }
 
 std::string message(const CavityTask& task, const Goal& goalAfter, const CavityResult& cavity,
@@ -117,8 +66,8 @@ std::string message(const CavityTask& task, const Goal& goalAfter, const CavityR
 
 /// Vertices of what moves inwards, lids apart, that have no cavity behind them.
 int solidVertices(const CavityTask& task, const CavityResult& cavity) {
-  const Faces& skin = task.open != nullptr ? task.open->skin : task.faces;
-  std::vector<char> mark(static_cast<std::size_t>(task.vertices.rows()), 0);
+  const Faces& skin = task.open != nullptr ? task.open->skin : task.model.surface->faces;
+  std::vector<char> mark(static_cast<std::size_t>(task.model.surface->vertices.rows()), 0);
   for (Eigen::Index f = 0; f < skin.rows(); ++f) {
     for (const int v : skin.row(f)) {
       const auto i = static_cast<std::size_t>(v);
@@ -129,21 +78,6 @@ int solidVertices(const CavityTask& task, const CavityResult& cavity) {
 }
 
 } // namespace
-
-bool isBetterThanSolid(const CavityTask& task, const CavityResult& cavity) {
-  return servesBetter(task, hollowBody(task, cavity), inputBody(task));
-}
-
-bool isBetter(const CavityTask& task, const CavityResult& cavity, const CavityResult& other) {
-  if (cavity.status != CavityStatus::Found) return false;
-  return other.status != CavityStatus::Found ||
-         servesBetter(task, hollowBody(task, cavity), hollowBody(task, other));
-}
-
-double gapToLimit(const CavityTask& task, const CavityResult& cavity) {
-  if (!task.limit || cavity.status != CavityStatus::Found) return 0.0;
-  return gapToLimit(*task.limit, inputBody(task), hollowBody(task, cavity));
-}
 
 Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Goal& goalAfter,
                        const CavityResult& cavity, const Options& options, const Stages& stages) {
@@ -173,31 +107,32 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Go
   report.add("inertia_tensor_after", modelAfter.inertiaTensor);
   task.goal.describe(before.mass, "before", report);
   goalAfter.describe(after.mass, "after", report);
-  if (task.limit) {
-    report.add("objective_limit", task.limit->objective);
-    report.add("gap_to_limit", gapToLimit(*task.limit, before, after));
-    task.goal.describe(task.limit->massMoments, "limit", report);
-    if (task.limit->bestVerdict) task.goal.describe(*task.limit->bestVerdict, "best", report);
+  if (task.bound) {
+    report.add("objective_limit", task.bound->objective);
+    report.add("gap_to_limit", gapToBound(*task.bound, before, after));
+    task.goal.describe(task.bound->massMoments, "limit", report);
+    if (task.bound->bestVerdict) task.goal.describe(*task.bound->bestVerdict, "best", report);
   }
   report.add("min_wall", hasCavity ? cavity.inspection.leastWall * posed.frame.length : 0.0);
   report.add("cavity_components", hollow ? cavity.inspection.components : 0);
   if (cavity.status == CavityStatus::NoRoom) {
     report.add("largest_wall", stages.largestWall * posed.frame.length);
+    report.add("seconds_largest_wall", stages.secondsLargestWall);
   }
   report.add("repairs", stages.repairs);
   report.add("skeleton_failures", stages.skeletonFailures);
   if (posed.open) report.add("openings", posed.open->openings);
   report.add("solid_vertices", solidVertices(task, cavity));
   report.add("stop_reason", cavity.stopReason);
-  report.add("rounds", cavity.rounds);
-  report.add("evaluations", cavity.evaluations);
+  report.add("rounds", cavity.effort.rounds);
+  report.add("evaluations", cavity.effort.evaluations);
   report.add("seconds_check", stages.secondsCheck);
   report.add("seconds_copy", stages.secondsCopy);
   report.add("seconds_skeleton", stages.secondsSkeleton);
   report.add("seconds_basis", stages.secondsBasis);
   report.add("seconds_limit", stages.secondsLimit);
-  report.add("seconds_optimization", cavity.secondsOptimization);
-  report.add("seconds_inspection", cavity.secondsInspection);
+  report.add("seconds_optimization", cavity.effort.secondsOptimization);
+  report.add("seconds_inspection", cavity.effort.secondsInspection);
   return report;
 }
 

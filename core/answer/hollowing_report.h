@@ -19,17 +19,8 @@ struct Stages {
   double secondsSkeleton = 0.0;
   double secondsBasis = 0.0;
   double secondsLimit = 0.0;
+  double secondsLargestWall = 0.0; ///< looking for it
 };
-
-/// Whether the cavity serves the goal better than leaving the body solid: it violates the
-/// constraints less or, where both keep them, has the lower objective.
-bool isBetterThanSolid(const CavityTask& task, const CavityResult& cavity);
-
-/// Whether the first serves the goal better, in the same sense; none is worse than any.
-bool isBetter(const CavityTask& task, const CavityResult& cavity, const CavityResult& other);
-
-/// The report's `gap_to_limit`; 0 where there is no cavity or no limit.
-double gapToLimit(const CavityTask& task, const CavityResult& cavity);
 
 /// All keys of docs/report.md but `seconds_total`. `goalAfter`: the task's goal for the outer
 /// surface of the result. An empty cavity stands for the solid body.

@@ -37,7 +37,7 @@ Picture pictureOf(const PosedModel& posed, const CavityTask& task, const Goal& g
                   const CavityResult& cavity) {
   const Moments massAfter =
       shellMoments(outerMoments(task, cavity), moments(cavity.inner, cavity.cavity.faces), 1.0,
-                   task.fillDensity);
+                   task.model.fillDensity);
   const Vec3 before = massProperties(task.inputMoments).centerOfMass;
   const Vec3 after = massProperties(massAfter).centerOfMass;
 
@@ -47,7 +47,7 @@ Picture pictureOf(const PosedModel& posed, const CavityTask& task, const Goal& g
   Vec3 normal = Vec3(along.y(), -along.x(), 0.0).normalized();
   if (normal.x() < normal.y()) normal *= -1.0;
   Picture picture;
-  const Eigen::Index n = task.vertices.rows();
+  const Eigen::Index n = task.model.surface->vertices.rows();
   const Submesh material = submesh(stacked(cavity.inner.topRows(n), cavity.outer),
                                    shellOf(task.surface.faces(), cavity.cavity.faces, n));
   const auto cavityVertices = std::count_if(material.vertexOf.begin(), material.vertexOf.end(),

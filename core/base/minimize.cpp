@@ -68,7 +68,7 @@ public:
         best_.x = v;
         best_.violation = violation;
         best_.objective = evaluation_.objective;
-        bestEvaluationViolation_ = violationOf(evaluation_);
+        bestEvaluationViolation_ = std::max(0.0, violationOf(evaluation_));
       }
     }
     return evaluation_;
@@ -76,7 +76,7 @@ public:
 
   MinimizeResult best() const {
     MinimizeResult result = best_;
-    result.violation = std::max(0.0, bestEvaluationViolation_);
+    result.violation = bestEvaluationViolation_;
     result.objectiveScale = objectiveScale_;
     return result;
   }
@@ -129,7 +129,7 @@ private:
   std::vector<double> point_;
   Evaluation evaluation_;
   MinimizeResult best_;
-  double bestEvaluationViolation_ = 0.0;
+  double bestEvaluationViolation_ = std::numeric_limits<double>::infinity();
   double objectiveScale_ = 1.0;
   Vector equalityScales_;
   Vector inequalityScales_;
@@ -200,6 +200,7 @@ std::string describe(nlopt::result result) {
 MinimizeResult minimize(const Problem& problem, const Vector& start,
                         const MinimizeOptions& options) {
   ScaledProblem scaled(problem, start, options);
+  const auto isAnywhereFinite = [&] { return std::isfinite(scaled.best().violation); };
   nlopt::opt solver(nlopt::LD_SLSQP, static_cast<unsigned>(start.size()));
   solver.set_min_objective(ScaledProblem::objective, &scaled);
   if (scaled.equalityCount() > 0) {
@@ -234,6 +235,7 @@ MinimizeResult minimize(const Problem& problem, const Vector& start,
       // optimum; the best point seen stands, and its constraints are checked by the caller.
       stopReason = "no further descent";
     }
+    if (!isAnywhereFinite()) break;
     restoreFeasibility(scaled, options);
     const double violation = scaled.best().violation;
     if (violation <= options.feasibility || (pass > 0 && violation > kNearer * violationBefore)) {
@@ -241,7 +243,7 @@ MinimizeResult minimize(const Problem& problem, const Vector& start,
     }
   }
   MinimizeResult result = scaled.best();
-  result.stopReason = stopReason;
+  result.stopReason = isAnywhereFinite() ? stopReason : "no evaluation was finite";
   return result;
 }
 

@@ -37,8 +37,9 @@ struct MinimizeOptions {
 
 struct MinimizeResult {
   Vector x; ///< the best point seen: least violation first, then least objective
+  /// There; infinite where no evaluation was finite, x being the start.
   double objective = 0.0;
-  double violation = 0.0; ///< largest constraint violation at x
+  double violation = 0.0; ///< largest constraint violation at x, likewise
   int evaluations = 0;
   double objectiveScale = 1.0; ///< that was used
   std::string stopReason;

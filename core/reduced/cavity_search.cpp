@@ -45,12 +45,25 @@ constexpr double kFarGap = 0.05;
 /// How far the cavity retreats from a cap that folds, in walls.
 constexpr double kRetreat = 0.25;
 
+const Points& verticesOf(const CavityTask& task) {
+  return task.model.surface->vertices;
+}
+
+const Faces& facesOf(const CavityTask& task) {
+  return task.model.surface->faces;
+}
+
+/// That a cavity's faces refer to.
+Eigen::Index positionCount(const CavityTask& task) {
+  return (task.open != nullptr ? 2 : 1) * verticesOf(task).rows();
+}
+
 /// Marks the vertices that paths of this length reach from v.
 void markWithin(const CavityTask& task, const VertexAdjacency& neighbours, int v, double length,
                 std::vector<char>& solid) {
   std::vector<int> stack{v};
   const auto isNear = [&](int w) {
-    return (task.vertices.row(w) - task.vertices.row(v)).squaredNorm() < length * length;
+    return (verticesOf(task).row(w) - verticesOf(task).row(v)).squaredNorm() < length * length;
   };
   while (!stack.empty()) {
     const int u = stack.back();
@@ -102,7 +115,7 @@ void tighten(const CavityTask& task, const CavityResult& result, const VertexAdj
     const Vec3 weights = nearestWeights(y, a, b, c);
     const Vec3 away = (y - (weights[0] * a + weights[1] * b + weights[2] * c)).normalized();
     const double missing = task.wall - result.inspection.wall[v];
-    const double gain = -away.dot(task.field.directions.row(v).transpose());
+    const double gain = -away.dot(task.model.field.directions.row(v).transpose());
     int& failures = thinRounds[static_cast<std::size_t>(v)];
     const double step = std::ldexp(kOverstep * missing / std::max(std::abs(gain), kLeastGain),
                                    std::min(failures++, kMostDoublings));
@@ -112,8 +125,8 @@ void tighten(const CavityTask& task, const CavityResult& result, const VertexAdj
       bounds.upper[v] = std::min(bounds.upper[v], result.innerOffsets[v] - step);
     }
   }
-  bounds.lower = lipschitzAbove(task.vertices, neighbours, bounds.lower, kBoundSlope);
-  bounds.upper = lipschitzBelow(task.vertices, neighbours, bounds.upper, kBoundSlope);
+  bounds.lower = lipschitzAbove(verticesOf(task), neighbours, bounds.lower, kBoundSlope);
+  bounds.upper = lipschitzBelow(verticesOf(task), neighbours, bounds.upper, kBoundSlope);
 }
 
 /// Holds the outer surface back where it folds; without patience it stays where it was.
@@ -122,7 +135,7 @@ void calmOuter(const CavityTask& task, const CavityResult& result,
   for (const int v : result.inspection.outerCrossing) {
     bounds.upper[v] = std::min(bounds.upper[v], patient ? kShrink * result.outerOffsets[v] : 0.0);
   }
-  bounds.upper = lipschitzBelow(task.vertices, neighbours, bounds.upper, kBoundSlope);
+  bounds.upper = lipschitzBelow(verticesOf(task), neighbours, bounds.upper, kBoundSlope);
   bounds.lower = bounds.lower.cwiseMin(bounds.upper);
 }
 
@@ -148,7 +161,7 @@ Eigen::Index fillNarrowParts(const CavityTask& task, const OffsetSurfaces& surfa
           (surfaces.innerOffsets[v] - bounds.lower[v]) / (bounds.upper[v] - bounds.lower[v]);
       const bool isUnwanted = fillUnwanted && share > kUnwanted;
       const double width = (isUnwanted ? kUnwantedWidth : 1.0) * task.wall;
-      const Vec3 inwards = -task.field.directions.row(v).transpose();
+      const Vec3 inwards = -task.model.field.directions.row(v).transpose();
       if (tree.firstHit(inner.row(v).transpose(), inwards, width) >= width) continue;
       mark = 1;
       ++filled;
@@ -168,22 +181,24 @@ void keepOrdered(OffsetBounds& bounds) {
 
 /// Existing cavities would be filled without a new one.
 bool mayMoveOuterAlone(const CavityTask& task) {
-  return task.outer.has_value() && task.inputMoments == task.solidMoments;
+  return task.model.outer.has_value() && task.inputMoments == task.model.solidMoments;
 }
 
-/// Coefficients whose surface comes near to the limit's cavity.
-Vector towardsLimit(const CavityTask& task, const OffsetModel& model, const Vector& outerStart) {
-  const Vector offsets = offsetsTowards(*task.limit, task.vertices, task.field.directions,
+/// Coefficients whose surface comes near to the bound's cavity.
+Vector towardsBound(const CavityTask& task, const OffsetModel& model, const Vector& outerStart) {
+  const Vector offsets = offsetsTowards(*task.bound, verticesOf(task), task.model.field.directions,
                                         model.inner.lower, model.inner.upper);
   return coefficientsFor(model, boundMapInverse(model.inner, offsets), outerStart);
 }
 
 /// Whether a second start may pay: the goal is missed, or a good part of what is possible.
-bool isFarFromLimit(const CavityTask& task, const MinimizeResult& best) {
-  if (!task.limit) return false;
-  const double solid = momentObjective(task.goal, task.weights, task.solidMoments, 1.0);
-  return best.violation > std::max(kFeasibility, task.limit->violation) ||
-         best.objective - task.limit->objective > kFarGap * (solid - task.limit->objective);
+bool isFarFromBound(const CavityTask& task, const MinimizeResult& best) {
+  if (!task.bound) return false;
+  const double solid = momentObjective(task.goal, task.weights, task.model.solidMoments, 1.0);
+  if (best.violation > std::max(kFeasibility, task.bound->violation)) return true;
+  // The bound knows nothing of smoothness.
+  return task.weights.smoothness == 0.0 &&
+         best.objective - task.bound->objective > kFarGap * (solid - task.bound->objective);
 }
 
 bool isBetter(const MinimizeResult& a, const MinimizeResult& b) {
@@ -193,11 +208,11 @@ bool isBetter(const MinimizeResult& a, const MinimizeResult& b) {
 
 /// The positions that a cavity's faces refer to.
 Points cavityPositions(const CavityTask& task, const Points& inner) {
-  return task.open != nullptr ? stacked(inner, task.vertices) : inner;
+  return task.open != nullptr ? stacked(inner, verticesOf(task)) : inner;
 }
 
 Faces offsetFaces(const CavityTask& task, const Faces& cavity) {
-  return task.open != nullptr ? withoutStrips(cavity, task.vertices.rows()) : cavity;
+  return task.open != nullptr ? withoutStrips(cavity, verticesOf(task).rows()) : cavity;
 }
 
 /// Whether an opening of the surface would be closed by material.
@@ -211,167 +226,238 @@ Inspection inspectResult(const CavityTask& task, const CavityResult& result, Loo
                          ClearanceMemory& memory) {
   const Faces& cavity = result.cavity.faces;
   if (task.open != nullptr) return inspectShell(result.inner, cavity, task.surface, task.wall);
-  if (task.outer) {
+  if (task.model.outer) {
     const TriangleTree moved(result.outer, task.surface.faces(), TriangleTree::Order::Spatial);
     return inspect(result.inner, cavity, moved, task.wall, true, first);
   }
   return inspect(result.inner, cavity, task.surface, task.wall, false, first, &memory);
 }
 
-/// `freedom`: how much of the range between least and greatest offset may be used, 0…1; at 0 there
-/// is nothing to optimise, and the cavity is as large as the wall allows.
-CavityResult searchWithin(const CavityTask& task, double freedom,
-                          const std::function<void(double)>& progress) {
-  const VertexAdjacency neighbours = vertexAdjacency(task.vertices.rows(), task.faces);
-  OffsetBounds bounds = task.inner;
-  std::vector<char> solid = tooThin(task.field, bounds);
-  if (task.open != nullptr) solid.resize(2 * solid.size(), 0);
-  const Faces& cavityFaces = task.open != nullptr ? task.open->cavity : task.faces;
-  bounds.lower =
-      lipschitzAbove(task.vertices, neighbours, bounds.lower.cwiseMin(bounds.upper), kBoundSlope);
+/// One search from the middle of the bounds to a cavity that passes inspection, in rounds.
+class CavitySearch {
+public:
+  /// `freedom`: how much of the range between least and greatest offset may be used, 0…1; at 0
+  /// there is nothing to optimise, and the cavity is as large as the wall allows.
+  CavitySearch(const CavityTask& task, double freedom, const std::function<void(double)>& progress);
 
-  OffsetModel model{
-      task.vertices, task.faces, task.field.directions, task.basis,       task.L, task.mass, bounds,
-      task.outer,    {},         task.fillDensity,      task.solidMoments};
-  model.interpolation = task.interpolation;
-  model.isOpen = task.open != nullptr;
-  const VertexCorners corners = vertexCorners(static_cast<Eigen::Index>(solid.size()), cavityFaces);
-  const Vector middle = 0.5 * (bounds.lower + bounds.upper);
-  const Vector outerStart =
-      task.outer ? Vector(task.outer->lower + kOuterStart * (task.outer->upper - task.outer->lower))
-                 : Vector();
-  Vector coefficients = coefficientsFor(model, middle, outerStart);
-  std::vector<int> thinRounds(static_cast<std::size_t>(task.vertices.rows()), 0);
+  CavityResult run();
 
-  // Later rounds start near their minima.
-  const bool mayStartCoarse = task.proxy != nullptr && !task.outer && task.open == nullptr &&
-                              task.weights.smoothness == 0.0;
-  MinimizeOptions solver;
-  CavityResult result;
-  result.outer = task.surface.vertices();
+private:
+  /// How a round goes on.
+  enum class Next { Inspect, AnotherRound, GiveUp };
+
+  void closeIn();
+  void followOuterSurface(int round);
+  Next findOffsets(int round);
+  bool closeCavity();
+  bool optimize(int round);
+  MinimizeResult minimizeFrom(const Vector& start, int round) const;
+  bool fillNarrow(int round);
+  void placeAndInspect();
+  bool isAnswer(int round);
+
+  const CavityTask& task_;
+  const double freedom_;
+  const std::function<void(double)>& progress_;
+  const VertexAdjacency neighbours_;
+  const Faces& cavityFaces_; ///< when nothing is solid
+  const VertexCorners corners_;
+  OffsetModel model_;
+  OffsetBounds bounds_; ///< as the rounds close them in; past each other where there is no room
+  std::vector<char> solid_;
+  std::vector<int> thinRounds_; ///< how often each vertex had too thin a wall
+  Vector outerStart_;
+  Vector coefficients_;
+  OffsetSurfaces surfaces_; ///< that the coefficients stand for
+  MinimizeOptions solver_;
+  std::unique_ptr<Goal> movedGoal_;
+  const Goal* goal_;
+
+  /// The minimum before unwanted parts were filled, to come back to where the goal needs them.
   struct Attempt {
     MinimizeResult best;
     std::vector<char> solid;
   };
-  std::optional<Attempt> withUnwanted;
-  bool fillUnwanted = freedom > 0.0;
-  bool mayTrim = true;
-  LookFirst first = LookFirst::ForAll;
-  ClearanceMemory memory;
-  std::unique_ptr<Goal> movedGoal;
-  const Goal* goal = &task.goal;
-  for (int round = 0; round < kMostRounds; ++round) {
-    result.rounds = round + 1;
-    addMarks(solid, tooThin(task.field, bounds));
-    model.inner = bounds;
-    keepOrdered(model.inner);
-    model.inner.upper = model.inner.lower + freedom * (model.inner.upper - model.inner.lower);
+  std::optional<Attempt> withUnwanted_;
+  bool fillUnwanted_;
+  bool mayTrim_ = true;
+  LookFirst first_ = LookFirst::ForAll;
+  ClearanceMemory memory_;
+  CavityResult result_;
+};
 
-    if (task.goalFor) {
-      const OffsetSurfaces present = offsetSurfaces(model, coefficients);
-      if (round == kFollowing) model.outer->lower = model.outer->upper = present.outerOffsets;
-      movedGoal = task.goalFor(task.deliverable(present.outer));
-      goal = movedGoal.get();
-    }
+CavitySearch::CavitySearch(const CavityTask& task, double freedom,
+                           const std::function<void(double)>& progress)
+    : task_(task), freedom_(freedom), progress_(progress),
+      neighbours_(vertexAdjacency(verticesOf(task).rows(), facesOf(task))),
+      cavityFaces_(task.open != nullptr ? task.open->cavity : facesOf(task)),
+      corners_(vertexCorners(positionCount(task), cavityFaces_)), model_(task.model),
+      bounds_(task.model.inner), solid_(tooThin(task.model.field, bounds_)),
+      thinRounds_(solid_.size(), 0), goal_(&task.goal), fillUnwanted_(freedom > 0.0) {
+  solid_.resize(static_cast<std::size_t>(positionCount(task)), 0);
+  bounds_.lower = lipschitzAbove(verticesOf(task), neighbours_,
+                                 bounds_.lower.cwiseMin(bounds_.upper), kBoundSlope);
+  if (model_.outer) {
+    outerStart_ = model_.outer->lower + kOuterStart * (model_.outer->upper - model_.outer->lower);
+  }
+  const Vector middle = 0.5 * (bounds_.lower + bounds_.upper);
+  coefficients_ = coefficientsFor(model_, middle, outerStart_);
+  result_.outer = task.surface.vertices();
+}
+
+CavityResult CavitySearch::run() {
+  for (int round = 0; round < kMostRounds; ++round) {
+    result_.effort.rounds = round + 1;
+    closeIn();
+    followOuterSurface(round);
 
     const Stopwatch optimization;
-    // The caps of a cavity that did not fold will do where it ends as it did.
-    if (solid != result.cavity.solid || !result.inspection.crossing.empty()) {
-      result.cavity =
-          cavitySurface(cavityPositions(task, offsetSurfaces(model, coefficients).inner),
-                        cavityFaces, corners, solid);
-      solid = result.cavity.solid;
-    }
-    if (closesOpening(task, solid)) {
-      result.stopReason = "no room for a cavity at an opening";
-      return result;
-    }
-    model.innerFaces = result.cavity.faces;
-    if (freedom > 0.0) {
-      const auto minimized = [&](const Vector& start) {
-        if (round == 0 && mayStartCoarse) {
-          return minimizeCoarseToFine(model, *task.proxy, *goal, task.weights, start, solver);
-        }
-        return minimize([&](const Vector& x) { return evaluate(model, *goal, task.weights, x); },
-                        start, solver);
-      };
-      MinimizeResult best = minimized(coefficients);
-      if (round == 0 && isFarFromLimit(task, best)) {
-        MinimizeResult other = minimized(towardsLimit(task, model, outerStart));
-        result.evaluations += other.evaluations;
-        if (isBetter(other, best)) std::swap(best, other);
-      }
-      solver.objectiveScale = best.objectiveScale;
-      coefficients = best.x;
-      result.evaluations += best.evaluations;
-      result.stopReason = best.stopReason;
-      if (withUnwanted && isBetter(withUnwanted->best, best)) {
-        // The goal needs those parts.
-        solid = std::move(withUnwanted->solid);
-        coefficients = withUnwanted->best.x;
-        withUnwanted.reset();
-        fillUnwanted = false;
-        result.secondsOptimization += optimization.seconds();
-        continue;
-      }
-      if (fillUnwanted) withUnwanted = Attempt{std::move(best), solid};
-    } else {
-      result.stopReason = "least offsets";
-    }
-    OffsetSurfaces surfaces = offsetSurfaces(model, coefficients);
-    if (round < kTrims && mayTrim) {
-      const Eigen::Index vertices = result.cavity.faces.rows() / 2;
-      const Eigen::Index filled = fillNarrowParts(
-          task, surfaces, model.inner, offsetFaces(task, result.cavity.faces), fillUnwanted, solid);
-      mayTrim = static_cast<double>(filled) > kWorthTrimming * static_cast<double>(vertices);
-      if (filled > 0) {
-        result.secondsOptimization += optimization.seconds();
-        continue;
-      }
-    }
-    withUnwanted.reset();
-    fillUnwanted = false;
-    result.secondsOptimization += optimization.seconds();
+    const Next next = findOffsets(round);
+    result_.effort.secondsOptimization += optimization.seconds();
+    if (next == Next::GiveUp) return std::move(result_);
+    if (next == Next::AnotherRound) continue;
 
     const Stopwatch inspection;
-    result.inner = cavityPositions(task, task.deliverable(surfaces.inner));
-    if (task.outer) result.outer = task.deliverable(surfaces.outer);
-    result.innerOffsets = std::move(surfaces.innerOffsets);
-    result.outerOffsets = std::move(surfaces.outerOffsets);
-    result.inspection = inspectResult(task, result, first, memory);
-    // What was all that was wrong mostly is all that is wrong next time.
-    const bool isWithoutFolds =
-        result.inspection.crossing.empty() && result.inspection.outerCrossing.empty();
-    first = isWithoutFolds                   ? LookFirst::ForThinWalls
-            : result.inspection.thin.empty() ? LookFirst::ForFolds
-                                             : LookFirst::ForAll;
-    result.secondsInspection += inspection.seconds();
-    if (progress) progress(1.0 - 1.0 / (2.0 + round));
-    if (result.inspection.isClean()) {
-      if (task.goalFor && round < kFollowing) continue;
-      // A moved outer surface may serve the goal alone.
-      const bool cavity = result.inspection.components > 0;
-      if (cavity || mayMoveOuterAlone(task)) result.status = CavityStatus::Found;
-      return result;
+    placeAndInspect();
+    result_.effort.secondsInspection += inspection.seconds();
+    if (progress_) progress_(1.0 - 1.0 / (2.0 + round));
+    if (result_.inspection.isClean()) {
+      if (isAnswer(round)) return std::move(result_);
+      continue;
     }
-    tighten(task, result, neighbours, bounds, solid, thinRounds, round < kPatience);
-    if (model.outer) calmOuter(task, result, neighbours, round < kPatience, *model.outer);
+    const bool isPatient = round < kPatience;
+    tighten(task_, result_, neighbours_, bounds_, solid_, thinRounds_, isPatient);
+    if (model_.outer) calmOuter(task_, result_, neighbours_, isPatient, *model_.outer);
   }
-  result.stopReason = "no cavity passes inspection";
-  return result;
+  result_.stopReason = "no cavity passes inspection";
+  return std::move(result_);
+}
+
+/// The bounds of this round, and what has no room between them.
+void CavitySearch::closeIn() {
+  addMarks(solid_, tooThin(task_.model.field, bounds_));
+  model_.inner = bounds_;
+  keepOrdered(model_.inner);
+  model_.inner.upper = model_.inner.lower + freedom_ * (model_.inner.upper - model_.inner.lower);
+}
+
+void CavitySearch::followOuterSurface(int round) {
+  if (!task_.goalFor) return;
+  const OffsetSurfaces present = offsetSurfaces(model_, coefficients_);
+  if (round == kFollowing) model_.outer->lower = model_.outer->upper = present.outerOffsets;
+  movedGoal_ = task_.goalFor(task_.deliverable(present.outer));
+  goal_ = movedGoal_.get();
+}
+
+CavitySearch::Next CavitySearch::findOffsets(int round) {
+  if (!closeCavity()) {
+    result_.stopReason = "no room for a cavity at an opening";
+    return Next::GiveUp;
+  }
+  if (!optimize(round)) return Next::AnotherRound;
+  surfaces_ = offsetSurfaces(model_, coefficients_);
+  if (fillNarrow(round)) return Next::AnotherRound;
+  withUnwanted_.reset();
+  fillUnwanted_ = false;
+  return Next::Inspect;
+}
+
+/// Closes the cavity where it ends. False where an opening would be closed by material.
+bool CavitySearch::closeCavity() {
+  // The caps of a cavity that did not fold will do where it ends as it did.
+  if (solid_ != result_.cavity.solid || !result_.inspection.crossing.empty()) {
+    result_.cavity =
+        cavitySurface(cavityPositions(task_, offsetSurfaces(model_, coefficients_).inner),
+                      cavityFaces_, corners_, solid_);
+    solid_ = result_.cavity.solid;
+  }
+  model_.innerFaces = result_.cavity.faces;
+  return !closesOpening(task_, solid_);
+}
+
+/// False where the goal turns out to need the parts that the round before filled.
+bool CavitySearch::optimize(int round) {
+  if (freedom_ == 0.0) {
+    result_.stopReason = "least offsets";
+    return true;
+  }
+  MinimizeResult best = minimizeFrom(coefficients_, round);
+  if (round == 0 && isFarFromBound(task_, best)) {
+    MinimizeResult other = minimizeFrom(towardsBound(task_, model_, outerStart_), round);
+    result_.effort.evaluations += other.evaluations;
+    if (isBetter(other, best)) std::swap(best, other);
+  }
+  solver_.objectiveScale = best.objectiveScale;
+  coefficients_ = best.x;
+  result_.effort.evaluations += best.evaluations;
+  result_.stopReason = best.stopReason;
+  if (withUnwanted_ && isBetter(withUnwanted_->best, best)) {
+    solid_ = std::move(withUnwanted_->solid);
+    coefficients_ = withUnwanted_->best.x;
+    withUnwanted_.reset();
+    fillUnwanted_ = false;
+    return false;
+  }
+  if (fillUnwanted_) withUnwanted_ = Attempt{std::move(best), solid_};
+  return true;
+}
+
+MinimizeResult CavitySearch::minimizeFrom(const Vector& start, int round) const {
+  // Later rounds start near their minima.
+  const bool startsCoarse = round == 0 && !task_.model.surface->interpolation.isIdentity() &&
+                            !task_.model.outer && task_.open == nullptr &&
+                            task_.weights.smoothness == 0.0;
+  if (startsCoarse) return minimizeCoarseToFine(model_, *goal_, task_.weights, start, solver_);
+  return minimize([&](const Vector& x) { return evaluate(model_, *goal_, task_.weights, x); },
+                  start, solver_);
+}
+
+/// Whether parts became solid that call for another round.
+bool CavitySearch::fillNarrow(int round) {
+  if (round >= kTrims || !mayTrim_) return false;
+  const Eigen::Index vertices = result_.cavity.faces.rows() / 2;
+  const Eigen::Index filled =
+      fillNarrowParts(task_, surfaces_, model_.inner, offsetFaces(task_, result_.cavity.faces),
+                      fillUnwanted_, solid_);
+  mayTrim_ = static_cast<double>(filled) > kWorthTrimming * static_cast<double>(vertices);
+  return filled > 0;
+}
+
+void CavitySearch::placeAndInspect() {
+  result_.inner = cavityPositions(task_, task_.deliverable(surfaces_.inner));
+  if (model_.outer) result_.outer = task_.deliverable(surfaces_.outer);
+  result_.innerOffsets = std::move(surfaces_.innerOffsets);
+  result_.outerOffsets = std::move(surfaces_.outerOffsets);
+  result_.inspection = inspectResult(task_, result_, first_, memory_);
+  // What was all that was wrong mostly is all that is wrong next time.
+  const bool isWithoutFolds =
+      result_.inspection.crossing.empty() && result_.inspection.outerCrossing.empty();
+  first_ = isWithoutFolds                    ? LookFirst::ForThinWalls
+           : result_.inspection.thin.empty() ? LookFirst::ForFolds
+                                             : LookFirst::ForAll;
+}
+
+/// Whether clean surfaces end the search; their status is set.
+bool CavitySearch::isAnswer(int round) {
+  if (task_.goalFor && round < kFollowing) return false;
+  // A moved outer surface may serve the goal alone.
+  const bool hasCavity = result_.inspection.components > 0;
+  if (hasCavity || mayMoveOuterAlone(task_)) result_.status = CavityStatus::Found;
+  return true;
 }
 
 } // namespace
 
 Moments outerMoments(const CavityTask& task, const CavityResult& result) {
-  return task.outer ? moments(result.outer, task.faces) : task.solidMoments;
+  return task.model.outer ? moments(result.outer, facesOf(task)) : task.model.solidMoments;
 }
 
-void addEffort(const CavityResult& other, CavityResult& result) {
-  result.rounds += other.rounds;
-  result.evaluations += other.evaluations;
-  result.secondsOptimization += other.secondsOptimization;
-  result.secondsInspection += other.secondsInspection;
+SearchEffort& SearchEffort::operator+=(const SearchEffort& other) {
+  evaluations += other.evaluations;
+  rounds += other.rounds;
+  secondsOptimization += other.secondsOptimization;
+  secondsInspection += other.secondsInspection;
+  return *this;
 }
 
 CavityResult searchCavity(const CavityTask& task, const std::function<void(double)>& progress) {
@@ -379,24 +465,27 @@ CavityResult searchCavity(const CavityTask& task, const std::function<void(doubl
   CavityResult all;
   std::optional<CavityResult> outerAlone;
   double done = 0.0;
-  const auto tell = [&](double share) {
+  const std::function<void(double)> reportShare = [&](double share) {
     done = std::max(done, share);
     if (progress) progress(done);
   };
   for (const double freedom : {1.0, 0.3, 0.0}) {
-    CavityResult result = searchWithin(task, freedom, tell);
-    const bool hopeless = result.rounds == 1;
-    addEffort(all, result);
+    CavityResult result = CavitySearch(task, freedom, reportShare).run();
+    const bool hopeless = result.effort.rounds == 1;
+    result.effort += all.effort;
     all = std::move(result);
     const bool found = all.status == CavityStatus::Found;
     if ((found && all.inspection.components > 0) || hopeless) return all;
     if (found && !outerAlone) outerAlone = all;
   }
-  return outerAlone ? *outerAlone : all;
+  if (!outerAlone) return all;
+  outerAlone->effort = all.effort;
+  return *outerAlone;
 }
 
 bool leavesRoom(const CavityTask& task) {
-  return searchWithin(task, 0.0, {}).status == CavityStatus::Found;
+  const std::function<void(double)> silent;
+  return CavitySearch(task, 0.0, silent).run().status == CavityStatus::Found;
 }
 
 } // namespace massprops

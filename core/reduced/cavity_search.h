@@ -4,7 +4,6 @@
 #include "core/base/types.h"
 #include "core/check/inspection.h"
 #include "core/goals/goals.h"
-#include "core/mesh/decimation.h"
 #include "core/model/open_surface.h"
 #include "core/optimum/optimal_bound.h"
 #include "core/reduced/cavity.h"
@@ -20,31 +19,18 @@ namespace massprops {
 struct CavityTask {
   /// Working frame, the outer surface while it rests, whose openings, if any, have no lids here.
   const TriangleTree& surface;
-  /// What moves inwards: that surface with its lids, or a coarse copy of it.
-  const Points& vertices;
-  const Faces& faces;
-  const OffsetField& field;
-  const HarmonicBasis& basis; ///< on the proxy, when there is one
-  const SparseMatrix& L;      ///< needed where smoothness has a weight
-  const Vector& mass;         ///< lumped, total 1
   const Goal& goal;
+  /// What moves, within which bounds; the search works on a copy and chooses the cavity's faces.
+  /// An outer surface that moves is what moves inwards, too, no copy.
+  OffsetModel model;
   Weights weights = {};
-  Moments solidMoments = Moments::Zero(); ///< of the outer surface
   Moments inputMoments = Moments::Zero(); ///< of the input, existing cavities taken off
-  double fillDensity = 0.0;               ///< as a multiple of the material's density
   double wall = 0.0;                      ///< working length
-  OffsetBounds inner = {};
-  /// Empty: the outer surface rests. Otherwise it is what moves inwards, too, no copy.
-  std::optional<OffsetBounds> outer = {};
-  std::optional<OptimalBound> limit = {}; ///< empty: not known
+  std::optional<OptimalBound> bound = {}; ///< empty: not known
   /// Empty, or what `goal` becomes when the outer surface has moved to these positions.
   std::function<std::unique_ptr<Goal>(const Points&)> goalFor = {};
   /// Rounds working positions to those that can be delivered, still in the working frame.
   std::function<Points(const Points&)> deliverable = {};
-  /// Null: the basis lives on the vertices themselves.
-  const Interpolation* interpolation = nullptr;
-  /// That the basis lives on; null with the former.
-  const Proxy* proxy = nullptr;
   /// Null: the surface is closed. Otherwise the outer surface rests, and is what moves inwards.
   const OpenSurface* open = nullptr;
 };
@@ -53,6 +39,16 @@ enum class CavityStatus {
   Found,  ///< surfaces that passed inspection; without a cavity where only the outer one moves
   NoRoom, ///< the wall leaves no room for any
   NoGain, ///< there is one, but the solid body serves the goal at least as well
+};
+
+/// The work that a search took.
+struct SearchEffort {
+  int evaluations = 0;
+  int rounds = 0;
+  double secondsOptimization = 0.0;
+  double secondsInspection = 0.0;
+
+  SearchEffort& operator+=(const SearchEffort& other);
 };
 
 struct CavityResult {
@@ -64,18 +60,12 @@ struct CavityResult {
   CavitySurface cavity; ///< over `inner`; no faces: nothing can be hollowed
   Vector innerOffsets, outerOffsets;
   Inspection inspection;
-  int evaluations = 0;
-  int rounds = 0;
+  SearchEffort effort;
   std::string stopReason;
-  double secondsOptimization = 0.0;
-  double secondsInspection = 0.0;
 };
 
 /// Of the delivered outer surface, its lids included, in the working frame.
 Moments outerMoments(const CavityTask& task, const CavityResult& result);
-
-/// Counts the work that went into `other` to that of `result`.
-void addEffort(const CavityResult& other, CavityResult& result);
 
 /// The cavity that serves the goal best among those that pass inspection. Where a cavity crosses
 /// itself or comes too near to the outer surface the bounds close in, and what is left without room

@@ -1,5 +1,7 @@
 #include "core/reduced/coarse_to_fine.h"
 
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace massprops {
@@ -30,24 +32,21 @@ Faces clustered(const Faces& faces, const std::vector<int>& vertexFor) {
 
 } // namespace
 
-MinimizeResult minimizeCoarseToFine(const OffsetModel& model, const Proxy& proxy, const Goal& goal,
+MinimizeResult minimizeCoarseToFine(const OffsetModel& model, const Goal& goal,
                                     const Weights& weights, const Vector& start,
                                     const MinimizeOptions& options) {
-  const Points vertices = rowsOf(model.vertices, proxy.vertexOf);
-  const Points directions = rowsOf(model.directions, proxy.vertexOf);
-  const OffsetBounds bounds{rowsOf(model.inner.lower, proxy.vertexOf),
-                            rowsOf(model.inner.upper, proxy.vertexOf)};
-  const OffsetModel coarse{vertices,
-                           model.faces,
-                           directions,
-                           model.basis,
-                           model.L,
-                           model.mass,
-                           bounds,
-                           {},
-                           clustered(model.innerFaces, proxy.vertexFor),
-                           model.fillDensity,
-                           model.solidMoments};
+  const Proxy& carrier = model.surface->carrier;
+  auto surface = std::make_shared<MovingSurface>();
+  surface->vertices = rowsOf(model.surface->vertices, carrier.vertexOf);
+  surface->basis = model.surface->basis;
+  OffsetModel coarse;
+  coarse.surface = std::move(surface);
+  coarse.field.directions = rowsOf(model.field.directions, carrier.vertexOf);
+  coarse.inner = {rowsOf(model.inner.lower, carrier.vertexOf),
+                  rowsOf(model.inner.upper, carrier.vertexOf)};
+  coarse.innerFaces = clustered(model.innerFaces, carrier.vertexFor);
+  coarse.fillDensity = model.fillDensity;
+  coarse.solidMoments = model.solidMoments;
   // Of value alone: with the derivatives' difference, too, the solver would run far beyond where
   // that holds, for offsets end at their bounds.
   const bool usesInertia = goal.usesInertia();

@@ -14,21 +14,20 @@ constexpr Eigen::Index kChunk = 1024;
 
 /// Hα at the vertices.
 Vector fieldOf(const OffsetModel& model, const Eigen::Ref<const Vector>& coefficients) {
-  const auto& functions = model.basis.functions;
+  const auto& functions = model.surface->basis.functions;
   Vector atBasis(functions.rows());
   forChunks(atBasis.size(), kChunk, [&](const Chunk& chunk) {
     const Eigen::Index size = chunk.end - chunk.begin;
     atBasis.segment(chunk.begin, size) = functions.middleRows(chunk.begin, size) * coefficients;
   });
-  return model.interpolation != nullptr ? *model.interpolation * atBasis : atBasis;
+  return model.surface->interpolation * atBasis;
 }
 
 /// Derivatives by the coefficients of what changes by row i of `rates` per unit of (Hα)_i; k
 /// columns.
 Matrix byCoefficients(const OffsetModel& model, const RowMatrix& rates) {
-  const auto& functions = model.basis.functions;
-  const RowMatrix atBasis =
-      model.interpolation != nullptr ? model.interpolation->transposeTimes(rates) : rates;
+  const auto& functions = model.surface->basis.functions;
+  const RowMatrix atBasis = model.surface->interpolation.transposeTimes(rates);
   std::vector<Matrix> parts(static_cast<std::size_t>(chunkCount(atBasis.rows(), kChunk)));
   forChunks(atBasis.rows(), kChunk, [&](const Chunk& chunk) {
     const Eigen::Index size = chunk.end - chunk.begin;
@@ -48,7 +47,7 @@ MomentJacobian jacobian(const OffsetModel& model, MomentRates rates, const Vecto
     rates.middleRows(chunk.begin, size).array().colwise() *=
         sign * slopes.segment(chunk.begin, size).array();
   });
-  MomentJacobian result = MomentJacobian::Zero(10, model.basis.functions.cols());
+  MomentJacobian result = MomentJacobian::Zero(10, model.surface->basis.functions.cols());
   result.topRows(rates.cols()) = byCoefficients(model, rates);
   return result;
 }
@@ -60,8 +59,8 @@ Points displaced(const OffsetModel& model, const Vector& offsets, double sign) {
     const Eigen::Index size = chunk.end - chunk.begin;
     const auto lengths = sign * offsets.segment(chunk.begin, size);
     result.middleRows(chunk.begin, size) =
-        model.vertices.middleRows(chunk.begin, size) +
-        lengths.asDiagonal() * model.directions.middleRows(chunk.begin, size);
+        model.surface->vertices.middleRows(chunk.begin, size) +
+        lengths.asDiagonal() * model.field.directions.middleRows(chunk.begin, size);
   });
   return result;
 }
@@ -70,21 +69,21 @@ CavityMoments momentsOf(const OffsetModel& model, const OffsetSurfaces& surfaces
                         bool usesInertia) {
   if (model.isOpen) {
     // The strips and lids have corners on the outer surface, which rest.
-    const Eigen::Index n = model.vertices.rows();
+    const Eigen::Index n = model.surface->vertices.rows();
     const MomentsWithRates both =
-        momentsWithRates(stacked(surfaces.inner, model.vertices), model.innerFaces,
-                         stacked(model.directions, Points::Zero(n, 3)), usesInertia);
+        momentsWithRates(stacked(surfaces.inner, model.surface->vertices), model.innerFaces,
+                         stacked(model.field.directions, Points::Zero(n, 3)), usesInertia);
     return {both.moments, jacobian(model, both.rates.topRows(n), surfaces.innerSlopes, -1.0)};
   }
   MomentsWithRates inner =
-      momentsWithRates(surfaces.inner, model.innerFaces, model.directions, usesInertia);
+      momentsWithRates(surfaces.inner, model.innerFaces, model.field.directions, usesInertia);
   return {inner.moments, jacobian(model, std::move(inner.rates), surfaces.innerSlopes, -1.0)};
 }
 
 } // namespace
 
 OffsetSurfaces offsetSurfaces(const OffsetModel& model, const Vector& coefficients) {
-  const Eigen::Index k = model.basis.functions.cols();
+  const Eigen::Index k = model.surface->basis.functions.cols();
   OffsetSurfaces surfaces;
   BoundedOffsets inner = boundMap(model.inner, fieldOf(model, coefficients.head(k)));
   surfaces.innerOffsets = std::move(inner.offsets);
@@ -115,14 +114,14 @@ Evaluation evaluateCavity(const OffsetModel& model, const Goal& goal, const Weig
 
 Evaluation evaluate(const OffsetModel& model, const Goal& goal, const Weights& weights,
                     const Vector& coefficients) {
-  const Eigen::Index k = model.basis.functions.cols();
+  const Eigen::Index k = model.surface->basis.functions.cols();
   const OffsetSurfaces surfaces = offsetSurfaces(model, coefficients);
   const CavityMoments inner = momentsOf(model, surfaces, goal.usesInertia());
   Evaluation e;
   if (model.outer) {
     const double solidVolume = model.solidMoments[0];
-    MomentsWithRates moved =
-        momentsWithRates(surfaces.outer, model.faces, model.directions, goal.usesInertia());
+    MomentsWithRates moved = momentsWithRates(surfaces.outer, model.surface->faces,
+                                              model.field.directions, goal.usesInertia());
     const Moments& outer = moved.moments;
     const MomentJacobian outerJacobian =
         jacobian(model, std::move(moved.rates), surfaces.outerSlopes, 1.0);
@@ -139,7 +138,7 @@ Evaluation evaluate(const OffsetModel& model, const Goal& goal, const Weights& w
 
   // Term 4: Dirichlet energy δᵀLδ of the inner offsets.
   if (weights.smoothness != 0.0) {
-    const Vector gradient = model.L * surfaces.innerOffsets;
+    const Vector gradient = model.surface->laplacian * surfaces.innerOffsets;
     e.objective += weights.smoothness * surfaces.innerOffsets.dot(gradient);
     const Vector rate = 2.0 * weights.smoothness * gradient.cwiseProduct(surfaces.innerSlopes);
     e.objectiveGradient.head(k) += byCoefficients(model, rate).transpose();
@@ -147,7 +146,7 @@ Evaluation evaluate(const OffsetModel& model, const Goal& goal, const Weights& w
 
   // Term 6: mean squared displacement of the outer surface, Σ M_i ε_i² with ΣM_i = 1.
   if (model.outer && weights.outer != 0.0) {
-    const Vector weighted = model.mass.cwiseProduct(surfaces.outerOffsets);
+    const Vector weighted = model.surface->mass.cwiseProduct(surfaces.outerOffsets);
     e.objective += weights.outer * weighted.dot(surfaces.outerOffsets);
     const Vector rate = 2.0 * weights.outer * weighted.cwiseProduct(surfaces.outerSlopes);
     e.objectiveGradient.tail(k) += byCoefficients(model, rate).transpose();
@@ -155,25 +154,24 @@ Evaluation evaluate(const OffsetModel& model, const Goal& goal, const Weights& w
   return e;
 }
 
-double objectiveValue(const Goal& goal, const Weights& weights, const Moments& massMoments,
-                      double volumeShare, const SparseMatrix& L, const Vector& innerOffsets,
-                      const Vector& mass, const Vector& outerOffsets) {
-  double value = momentObjective(goal, weights, massMoments, volumeShare);
+double offsetObjective(const MovingSurface& surface, const Weights& weights,
+                       const Vector& innerOffsets, const Vector& outerOffsets) {
+  double value = 0.0;
   if (innerOffsets.size() > 0 && weights.smoothness != 0.0) {
-    value += weights.smoothness * innerOffsets.dot(L * innerOffsets);
+    value += weights.smoothness * innerOffsets.dot(surface.laplacian * innerOffsets);
   }
   if (outerOffsets.size() > 0) {
-    value += weights.outer * mass.dot(outerOffsets.cwiseAbs2());
+    value += weights.outer * surface.mass.dot(outerOffsets.cwiseAbs2());
   }
   return value;
 }
 
 Vector coefficientsFor(const OffsetModel& model, const Vector& inner, const Vector& outer) {
   // HᵀMH = 1, so the M-orthogonal projection is HᵀM; on a proxy M is what it stands for.
-  const Eigen::Index k = model.basis.functions.cols();
+  const Eigen::Index k = model.surface->basis.functions.cols();
   Vector coefficients(model.outer ? 2 * k : k);
   const auto project = [&](const Vector& field) {
-    const Vector weighted = model.mass.cwiseProduct(field);
+    const Vector weighted = model.surface->mass.cwiseProduct(field);
     return Vector(byCoefficients(model, weighted).transpose());
   };
   coefficients.head(k) = project(inner);

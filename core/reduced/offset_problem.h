@@ -2,22 +2,18 @@
 #pragma once
 
 #include "core/goals/objective.h"
-#include "core/mesh/decimation.h"
-#include "core/reduced/harmonics.h"
+#include "core/reduced/moving_surface.h"
 #include "core/reduced/offset_bounds.h"
 
+#include <memory>
 #include <optional>
 
 namespace massprops {
 
-/// All that does not change while the coefficients do. Working frame throughout.
+/// Which surface moves along which lines, how far, and over what. Working frame throughout.
 struct OffsetModel {
-  const Points& vertices;     ///< n×3, of the input surface
-  const Faces& faces;         ///< of the outer surface
-  const Points& directions;   ///< n×3, unit, outwards
-  const HarmonicBasis& basis; ///< n×k, or p×k on a proxy
-  const SparseMatrix& L;      ///< n×n cotangent Laplacian; needed where smoothness has a weight
-  const Vector& mass;         ///< n lumped masses of total 1
+  std::shared_ptr<const MovingSurface> surface; ///< n vertices, k functions
+  OffsetField field;                            ///< of which the directions count here
   OffsetBounds inner;
   std::optional<OffsetBounds> outer; ///< empty: the outer surface stays
   /// Of the cavity, outward, over the same vertices; of an open surface over 2n positions
@@ -25,9 +21,7 @@ struct OffsetModel {
   Faces innerFaces;
   double fillDensity = 0.0; ///< as a multiple of the material's density
   Moments solidMoments;     ///< of the input surface
-  /// From the proxy that the basis lives on to the vertices; null where it lives on these.
-  const Interpolation* interpolation = nullptr;
-  bool isOpen = false; ///< whether `innerFaces` are those of an open surface
+  bool isOpen = false;      ///< whether `innerFaces` are those of an open surface
 };
 
 /// The two surfaces that a set of coefficients stands for.
@@ -56,12 +50,10 @@ Evaluation evaluateCavity(const OffsetModel& model, const Goal& goal, const Weig
 Evaluation evaluate(const OffsetModel& model, const Goal& goal, const Weights& weights,
                     const Vector& coefficients);
 
-/// The same objective of bodies that are given by their moments and offsets, for reports.
-/// `volumeShare`: material over volume of the solid; `innerOffsets`, `outerOffsets`: n entries, or
-/// empty where that surface does not move.
-double objectiveValue(const Goal& goal, const Weights& weights, const Moments& massMoments,
-                      double volumeShare, const SparseMatrix& L, const Vector& innerOffsets,
-                      const Vector& mass, const Vector& outerOffsets);
+/// Terms 4 and 6, which depend on the offsets: n entries each, or empty where that surface does not
+/// move.
+double offsetObjective(const MovingSurface& surface, const Weights& weights,
+                       const Vector& innerOffsets, const Vector& outerOffsets);
 
 /// Coefficients whose fields come nearest, in the mean square, to the wanted ones Hα ≈ inner and
 /// Hβ ≈ outer.

@@ -133,6 +133,23 @@ TEST(Minimize, NeverReturnsAPointWithoutAValue) {
   }
 }
 
+TEST(Minimize, SaysSoWhenNoEvaluationIsFinite) {
+  const auto nowhere = [](const Vector& x) {
+    Evaluation e;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    e.objective = nan;
+    e.objectiveGradient = Vector::Constant(x.size(), nan);
+    e.inequalities = vector({nan});
+    e.inequalityJacobian = Matrix::Constant(1, x.size(), nan);
+    return e;
+  };
+  const MinimizeResult result = minimize(nowhere, vector({0.3, 0.1}));
+  EXPECT_EQ(result.x, vector({0.3, 0.1}));
+  EXPECT_EQ(result.violation, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(result.objective, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(result.stopReason, "no evaluation was finite");
+}
+
 TEST(Minimize, KeepsToItsEvaluationLimit) {
   MinimizeOptions few;
   few.maxEvaluations = 5;

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -190,22 +191,16 @@ TEST(OpenSurface, HasTheMomentRatesOfItsStripsToo) {
   Random random(3);
   Matrix functions(n, 3);
   for (int j = 0; j < 3; ++j) functions.col(j) = random.vector(n);
-  const HarmonicBasis basis{functions, Vector::Zero(3)};
   const Points directions =
       (ball.vertices.rowwise() - Eigen::RowVector3d(0, 0, 0.5)).rowwise().normalized();
   const Vector mass = Vector::Constant(n, 1.0 / static_cast<double>(n));
-  const SparseMatrix none;
-  OffsetModel model{ball.vertices,
-                    ball.faces,
-                    directions,
-                    basis,
-                    none,
-                    mass,
-                    {Vector::Constant(n, 0.05), Vector::Constant(n, 0.4)},
-                    {},
-                    open.cavity,
-                    0.0,
-                    quadratureMoments(ball)};
+  OffsetModel model;
+  model.surface = std::make_shared<MovingSurface>(
+      MovingSurface{ball.vertices, ball.faces, mass, {functions, Vector::Zero(3)}});
+  model.field.directions = directions;
+  model.inner = {Vector::Constant(n, 0.05), Vector::Constant(n, 0.4)};
+  model.innerFaces = open.cavity;
+  model.solidMoments = quadratureMoments(ball);
   model.isOpen = true;
   const Vector x = 0.1 * random.vector(3);
   const CavityMoments at = cavityMoments(model, x, true);

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+
 namespace massprops::testing {
 namespace {
 
@@ -18,7 +20,6 @@ struct Lump {
   TriangleMesh mesh = transformed(blob(30), 0.4 * Mat3::Identity(), {0.05, -0.03, 0.42});
   Proxy proxy = makeProxy(mesh.vertices, mesh.faces, {600, 600, 0.0});
   Interpolation interpolation = interpolationFrom(proxy, mesh.vertices);
-  SparseMatrix L = cotanLaplacian(mesh.vertices, mesh.faces);
   Vector mass = vertexLumpedMass(mesh.vertices, mesh.faces);
   HarmonicBasis basis;
   Points directions = mesh.vertices;
@@ -36,18 +37,13 @@ struct Lump {
   }
 
   OffsetModel model() const {
-    OffsetModel result{mesh.vertices,
-                       mesh.faces,
-                       directions,
-                       basis,
-                       L,
-                       mass,
-                       inner,
-                       {},
-                       mesh.faces,
-                       0.0,
-                       moments(mesh.vertices, mesh.faces)};
-    result.interpolation = &interpolation;
+    OffsetModel result;
+    result.surface = std::make_shared<MovingSurface>(
+        MovingSurface{mesh.vertices, mesh.faces, mass, basis, interpolation, proxy});
+    result.field.directions = directions;
+    result.inner = inner;
+    result.innerFaces = mesh.faces;
+    result.solidMoments = moments(mesh.vertices, mesh.faces);
     return result;
   }
 };
@@ -70,8 +66,7 @@ TEST_P(CoarseToFine, ReachesTheMinimumOfTheCavityItself) {
   const MinimizeOptions options;
   const auto exact = [&](const Vector& x) { return evaluate(model, *goal, weights, x); };
   const MinimizeResult plain = minimize(exact, start, options);
-  const MinimizeResult result =
-      minimizeCoarseToFine(model, lump.proxy, *goal, weights, start, options);
+  const MinimizeResult result = minimizeCoarseToFine(model, *goal, weights, start, options);
 
   ASSERT_LE(plain.violation, options.feasibility);
   const double gain = exact(start).objective - plain.objective;

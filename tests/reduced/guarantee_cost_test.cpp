@@ -40,8 +40,13 @@ double unguardedOptimum(const TriangleMesh& mesh, const Options& options) {
   bounds.lower = bounds.lower.cwiseMin(bounds.upper);
 
   const Moments solid = moments(posed.vertices, posed.faces);
-  const OffsetModel model{posed.vertices, posed.faces, field.directions, basis, L,    mass,
-                          bounds,         {},          posed.faces,      0.0,   solid};
+  OffsetModel model;
+  model.surface =
+      std::make_shared<MovingSurface>(MovingSurface{posed.vertices, posed.faces, mass, basis});
+  model.field = field;
+  model.inner = bounds;
+  model.innerFaces = posed.faces;
+  model.solidMoments = solid;
   const std::unique_ptr<Goal> goal = options.goal == GoalKind::Stand
                                          ? makeStandGoal(posed.contact, options.weights, 1.0)
                                          : makeSpinGoal(solid, options.weights, 1.0);

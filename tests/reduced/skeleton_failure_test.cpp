@@ -70,13 +70,16 @@ TEST(SkeletonFailure, StillGivesACavityThatKeepsTheWall) {
       offsetField(posed.vertices, posed.faces, skeleton.points, L, area, 0.02);
   const Moments solid = moments(posed.vertices, posed.faces);
   const std::unique_ptr<Goal> goal = makeSpinGoal(solid, options.weights, posed.frame.length);
-  CavityTask task{surface, posed.vertices, posed.faces, field,          basis,
-                  L,       mass,           *goal,       options.weights};
-  task.solidMoments = solid;
+  CavityTask task{surface, *goal, {}, options.weights};
+  task.model.surface =
+      std::make_shared<MovingSurface>(MovingSurface{posed.vertices, posed.faces, mass, basis});
+  task.model.field = field;
+  task.model.solidMoments = solid;
   task.inputMoments = solid;
   task.wall = posed.wall;
-  task.inner = keepingWall(posed.vertices, surface, field,
-                           innerBounds(field, posed.wall, options.innerUpperBound), posed.wall);
+  task.model.inner =
+      keepingWall(posed.vertices, surface, field,
+                  innerBounds(field, posed.wall, options.innerUpperBound), posed.wall);
   task.deliverable = [](const Points& points) { return points; };
   const CavityResult cavity = searchCavity(task, {});
   ASSERT_EQ(cavity.status, CavityStatus::Found);

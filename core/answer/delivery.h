@@ -1,0 +1,28 @@
+// The surfaces that a search found, as the user gets them.
+#pragma once
+
+#include "core/model/posed_model.h"
+#include "core/model/solid.h"
+#include "core/reduced/cavity_search.h"
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace massprops {
+
+/// In model coordinates, in the order of the model's vertices.
+struct Delivery {
+  /// Without vertices and faces when there is no cavity; normals point into the cavity.
+  TriangleMesh inner;
+  Vector innerWall;                  ///< of every vertex of `inner`, length
+  std::optional<TriangleMesh> outer; ///< when it is not the input's
+};
+
+/// `vertexOf`: for every vertex of what moved the vertex of the posed model that it is;
+/// `representable`: rounds to what the caller can store. Nothing where the search found nothing.
+Delivery deliver(const Solid& solid, const PosedModel& posed, const CavityTask& task,
+                 const CavityResult& cavity, const std::vector<int>& vertexOf,
+                 const std::function<Points(const Points&)>& representable);
+
+} // namespace massprops

@@ -1,0 +1,37 @@
+// The body that a search ends with, and whether it serves the goal better than another.
+#pragma once
+
+#include "core/physics/moments.h"
+#include "core/reduced/cavity_search.h"
+
+namespace massprops {
+
+/// Measured on triangles.
+struct Body {
+  Moments mass;        ///< working frame, material of density 1
+  double volume = 0.0; ///< of the material, working unit
+  /// All terms, and without the smoothness of the offsets and the outer surface's displacement,
+  /// which bodies without offsets do not have.
+  double objective = 0.0, momentObjective = 0.0;
+  double violation = 0.0; ///< largest of the goal's constraints
+};
+
+/// The model as it came in, existing cavities and all.
+Body inputBody(const CavityTask& task);
+
+/// With the cavity that was found. \pre its status is Found or NoGain
+Body hollowBody(const CavityTask& task, const CavityResult& cavity);
+
+/// Whether the first violates the constraints less or, where both keep them, has the lower
+/// objective.
+bool servesBetter(const CavityTask& task, const Body& a, const Body& b);
+
+/// The same for cavities; none is worse than any.
+bool servesBetter(const CavityTask& task, const CavityResult& a, const CavityResult& b);
+
+/// Share of what a cavity could gain that is not gained, 0 for the best possible: in the objective
+/// where it can be compared, else in the violation of the constraints. The bound knows nothing of
+/// smoothness, so that term is left out on both sides.
+double gapToBound(const OptimalBound& bound, const Body& before, const Body& after);
+
+} // namespace massprops

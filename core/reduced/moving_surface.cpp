@@ -1,0 +1,89 @@
+#include "core/reduced/moving_surface.h"
+
+#include "core/base/parallel.h"
+#include "core/base/stopwatch.h"
+#include "core/reduced/offset_field.h"
+#include "core/reduced/skeleton.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace massprops {
+namespace {
+
+/// Of the diagonal: smooths the noise of the skeleton's correspondence and keeps its shape.
+constexpr double kDiffusionLength = 0.02;
+
+/// What moves inwards is as fine as a cavity has to be: on finer ones, the objective does not
+/// improve by more than the one or two per cent that it scatters by. In working lengths.
+constexpr Coarseness kMoving{12000, 3000, 1.5e-4};
+
+/// Skeleton and basis are smooth: their carrier leads to cavities as good as the whole surface does
+/// (benchmarks/results.md).
+constexpr Coarseness kCarrier{2400, 600, 3e-4};
+
+/// A function of the basis needs a few vertices to have a shape.
+Coarseness carrying(int basisSize, const Coarseness& wanted) {
+  constexpr Eigen::Index kVerticesAFunction = 4;
+  const Eigen::Index needed = kVerticesAFunction * basisSize;
+  return {std::max(wanted.most, needed), std::max(wanted.least, needed), wanted.distance};
+}
+
+} // namespace
+
+Coarsening coarsen(const PosedModel& posed, const CoarseningOptions& options,
+                   const std::function<void()>& whenCopied, const std::function<void()>& beside) {
+  const Stopwatch copying;
+  const Coarseness whole{posed.vertices.rows(), posed.vertices.rows(), 0.0};
+  CoarseCopy copy = coarseCopy(posed.vertices, posed.faces,
+                               options.isDecimated ? carrying(options.basisSize, kMoving) : whole);
+  auto moving = std::make_shared<MovingSurface>();
+  moving->vertices = std::move(copy.mesh.vertices);
+  moving->faces = std::move(copy.mesh.faces);
+  moving->carrier =
+      makeProxy(moving->vertices, moving->faces,
+                options.isCarrierCoarse ? carrying(options.basisSize, kCarrier) : whole);
+  Coarsening result;
+  result.vertexOf = std::move(copy.vertexOf);
+  result.secondsCopy = copying.seconds();
+  whenCopied();
+
+  const TriangleMesh& carrier = moving->carrier.mesh;
+  const Vector area = vertexLumpedMass(moving->vertices, moving->faces);
+  moving->mass = area / area.sum();
+  SparseMatrix laplacian;
+  Vector carrierArea; // that the carrier's vertices stand for on what moves
+  Skeleton skeleton;
+  inParallel(
+      [&] {
+        const Stopwatch time;
+        moving->interpolation = interpolationFrom(moving->carrier, moving->vertices);
+        carrierArea = moving->interpolation.transposeTimes(area);
+        laplacian = cotanLaplacian(carrier.vertices, carrier.faces);
+        moving->basis = harmonicBasis(carrier.vertices, carrier.faces, laplacian,
+                                      carrierArea / carrierArea.sum(), options.basisSize);
+        result.secondsBasis = time.seconds();
+        beside();
+      },
+      [&] {
+        const Stopwatch time;
+        skeleton = meanCurvatureSkeleton(carrier.vertices, carrier.faces);
+        result.secondsSkeleton = time.seconds();
+      });
+  if (options.isSmooth) moving->laplacian = cotanLaplacian(moving->vertices, moving->faces);
+  result.axis = moving->interpolation *
+                smoothedOverSurface(skeleton.points, laplacian, carrierArea, kDiffusionLength);
+  result.skeletonFailures = skeleton.failedComponents;
+  result.moving = std::move(moving);
+  return result;
+}
+
+Eigen::Index movingSize(Eigen::Index n, int basisSize) {
+  return std::min(n, carrying(basisSize, kMoving).most);
+}
+
+Eigen::Index carrierSize(Eigen::Index n, int basisSize) {
+  return std::min(n, carrying(basisSize, kCarrier).most);
+}
+
+} // namespace massprops

@@ -1,0 +1,84 @@
+#include "core/reduced/search_strategy.h"
+
+#include "core/reduced/hollow_body.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+namespace massprops {
+namespace {
+
+/// Above this gap another search, with other directions, is worth its time.
+constexpr double kFarFromBound = 0.075;
+
+/// A shell is asked for whatever a solid body could do.
+bool isUseless(const CavityTask& task, const CavityResult& cavity) {
+  return task.open == nullptr && cavity.status == CavityStatus::Found &&
+         !servesBetter(task, hollowBody(task, cavity), inputBody(task));
+}
+
+bool isFarFromBound(const CavityTask& task, const CavityResult& cavity) {
+  // With a weight on smoothness the best body is far from the bound by intention.
+  if (!task.bound || cavity.status != CavityStatus::Found || task.weights.smoothness > 0.0) {
+    return false;
+  }
+  return gapToBound(*task.bound, inputBody(task), hollowBody(task, cavity)) > kFarFromBound;
+}
+
+} // namespace
+
+CavityResult bestCavity(const CavityTask& task, const Redirected& steeper,
+                        const std::function<void(double)>& progress) {
+  CavityResult best = searchCavity(task, progress);
+  SearchEffort effort = best.effort;
+  if (task.bound && isUseless(task, best)) {
+    // What was trimmed off later may have been what the start near the bound lived on.
+    CavityTask plain = task;
+    plain.bound.reset();
+    best = searchCavity(plain, progress);
+    effort += best.effort;
+  }
+  if (isFarFromBound(task, best)) {
+    CavityResult steep = searchCavity(steeper(), progress);
+    effort += steep.effort;
+    if (servesBetter(task, steep, best)) best = std::move(steep);
+  }
+  if (isUseless(task, best)) best.status = CavityStatus::NoGain;
+  best.effort = effort;
+  return best;
+}
+
+double largestWall(CavityTask task, const std::function<OffsetBounds(double)>& boundsFor,
+                   const std::function<void(double)>& progress) {
+  constexpr int kHalvings = 10;
+  constexpr int kBisections = 3;
+  int tried = 0;
+  const auto hasRoom = [&](double wall) {
+    task.wall = wall;
+    task.model.inner = boundsFor(wall);
+    return leavesRoom(task);
+  };
+  // Near its limit the search finds a cavity at one wall and none at a slightly thinner one, so
+  // that a wall counts only when a thinner one works, too.
+  const auto works = [&](double wall) {
+    const bool result = hasRoom(wall) && hasRoom(0.99 * wall);
+    if (progress) progress(static_cast<double>(++tried) / (kHalvings + kBisections));
+    return result;
+  };
+  const OffsetBounds thinnest = boundsFor(0.0);
+  double tooThick =
+      std::min(task.wall, thinnest.upper.cwiseProduct(task.model.field.clearance).maxCoeff());
+  double found = 0.0;
+  for (int i = 0; i < kHalvings && found == 0.0 && tooThick > 0.0; ++i) {
+    const double half = 0.5 * tooThick;
+    (works(half) ? found : tooThick) = half;
+  }
+  for (int i = 0; i < kBisections && found > 0.0; ++i) {
+    const double middle = 0.5 * (found + tooThick);
+    (works(middle) ? found : tooThick) = middle;
+  }
+  return found;
+}
+
+} // namespace massprops

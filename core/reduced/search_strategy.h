@@ -1,0 +1,26 @@
+// Which searches are worth their time, one after the other.
+#pragma once
+
+#include "core/reduced/cavity_search.h"
+
+#include <functional>
+
+namespace massprops {
+
+/// The same task with other offset directions.
+using Redirected = std::function<CavityTask()>;
+
+/// The best cavity of up to three searches: the second without a start near the bound's cavity,
+/// where the first serves the goal no better than the solid; the third along `steeper` directions,
+/// where much of what is possible is left. Their effort is added up. Status NoGain: there is a
+/// cavity, but the solid body serves the goal at least as well. `progress` as for `searchCavity`.
+CavityResult bestCavity(const CavityTask& task, const Redirected& steeper,
+                        const std::function<void(double)>& progress);
+
+/// The greatest wall below the wanted one that leaves room for a cavity, within an eighth of it,
+/// working length; 0 when none was found down to a thousandth. `boundsFor`: the offsets' bounds
+/// that keep a wall. `progress`: called with the share of the work that is done, 0…1; may be empty.
+double largestWall(CavityTask task, const std::function<OffsetBounds(double)>& boundsFor,
+                   const std::function<void(double)>& progress);
+
+} // namespace massprops
