@@ -70,6 +70,7 @@ struct Preparation {
   Preparation(const Preparation&) = delete;
   Preparation& operator=(const Preparation&) = delete;
 
+  const Stopwatch time;
   const Solid solid;
   const PosedModel piece;
   const TriangleTree surface;
@@ -77,7 +78,13 @@ struct Preparation {
   const std::unique_ptr<Goal> goal;
   const bool isDecimated; ///< whether a copy moves inwards
   const Schedule schedule;
+  const double seconds = time.seconds(); ///< all of this took
 };
+
+Preparation prepare(const TriangleMesh& model, const Options& options, ProgressBar& bar) {
+  bar.show(0, "Checking the model");
+  return {model, options};
+}
 
 /// What moves inwards, and what the best of all cavities could do.
 struct Foundation {
@@ -86,16 +93,7 @@ struct Foundation {
   double secondsBound = 0.0, secondsCrossings = 0.0;
 };
 
-/// A stage that failed may have done so for crossings that nobody has looked for yet; otherwise
-/// the user learns what can be done about it.
-[[noreturn]] void explain(const std::exception& failure, const Solid& solid) {
-  requireNoCrossings(solid);
-  throw std::runtime_error(std::string("This mesh is too uneven to be calculated with (") +
-                           failure.what() +
-                           "): use Remeshing > Isotropic Explicit Remeshing, then run again.");
-}
-
-Foundation coarsenAndBound(const Preparation& model, const Options& options, ProgressBar& bar) {
+Foundation coarsen(const Preparation& model, const Options& options, ProgressBar& bar) {
   Foundation result;
   const auto checkCrossings = [&] {
     const Stopwatch time;
@@ -127,8 +125,10 @@ Foundation coarsenAndBound(const Preparation& model, const Options& options, Pro
     throw;
   } catch (const std::bad_alloc&) {
     throw;
-  } catch (const std::exception& failure) {
-    explain(failure, model.solid);
+  } catch (const std::exception&) {
+    // A stage that fails may do so for crossings that nobody has looked for yet.
+    requireNoCrossings(model.solid);
+    throw;
   }
   return result;
 }
@@ -201,6 +201,8 @@ CavityTask taskAlong(double wantedClearance, const Preparation& model, const Fou
 struct Search {
   CavityTask task;
   CavityResult cavity;
+  /// For the outer surface as it has become, which a verdict may depend on.
+  std::unique_ptr<Goal> goalAfter = {};
   double largestWall = 0.0; ///< working length; when the wanted one leaves no room
   double secondsLargestWall = 0.0;
 };
@@ -213,6 +215,9 @@ Search search(const Preparation& model, const Foundation& foundation, const Opti
   result.cavity = bestCavity(
       result.task, [&] { return taskAlong(kSteepClearance, model, foundation, options); },
       bar.within(model.schedule.search, Schedule::kEnd, "Optimization"));
+  const bool isFound = result.cavity.status == CavityStatus::Found;
+  result.goalAfter =
+      makeGoal(options, model.piece, isFound ? result.cavity.outer : model.piece.vertices);
   if (result.cavity.status != CavityStatus::NoRoom) return result;
 
   const Stopwatch time;
@@ -228,38 +233,50 @@ Search search(const Preparation& model, const Foundation& foundation, const Opti
   return result;
 }
 
-Result answer(const Preparation& model, const Foundation& foundation, const Search& search,
-              const Options& options, double secondsCheck, ProgressBar& bar) {
+Result deliver(const Preparation& model, const Foundation& foundation, const Search& found,
+               const Options& options, ProgressBar& bar) {
   bar.show(Schedule::kEnd, "Report");
   Result result;
   Delivery delivery =
-      deliver(model.solid, model.piece, search.task, search.cavity, foundation.coarse.vertexOf,
+      deliver(model.solid, model.piece, found.task, found.cavity, foundation.coarse.vertexOf,
               [&](const Points& points) { return representable(options, points); });
   result.inner = std::move(delivery.inner);
   result.innerWall = std::move(delivery.innerWall);
   result.outer = std::move(delivery.outer);
+  if (found.cavity.status == CavityStatus::Found && options.showAnswer) {
+    bar.show(97, "Picture of the answer");
+    result.picture = pictureOf(model.piece, found.task, *found.goalAfter, found.cavity);
+  }
+  return result;
+}
 
+Report report(const Preparation& model, const Foundation& foundation, const Search& found,
+              const Options& options) {
   const Coarsening& coarse = foundation.coarse;
   Stages stages;
   stages.repairs = model.solid.repairs().describe();
   stages.skeletonFailures = coarse.skeletonFailures;
-  stages.largestWall = search.largestWall;
-  stages.secondsCheck = secondsCheck + foundation.secondsCrossings;
+  stages.largestWall = found.largestWall;
+  stages.secondsCheck = model.seconds + foundation.secondsCrossings;
   stages.secondsCopy = coarse.secondsCopy;
   stages.secondsSkeleton = coarse.secondsSkeleton;
   stages.secondsBasis = coarse.secondsBasis;
   stages.secondsLimit = foundation.secondsBound;
-  stages.secondsLargestWall = search.secondsLargestWall;
-  // A verdict may depend on the outer surface as it has become.
-  const bool isFound = search.cavity.status == CavityStatus::Found;
-  const std::unique_ptr<Goal> reached =
-      isFound ? makeGoal(options, model.piece, search.cavity.outer) : nullptr;
-  result.report = hollowingReport(model.piece, search.task, reached ? *reached : *model.goal,
-                                  search.cavity, options, stages);
-  if (reached && options.showAnswer) {
-    bar.show(97, "Picture of the answer");
-    result.picture = pictureOf(model.piece, search.task, *reached, search.cavity);
-  }
+  stages.secondsLargestWall = found.secondsLargestWall;
+  return hollowingReport(model.piece, found.task, *found.goalAfter, found.cavity, options, stages);
+}
+
+Result run(const TriangleMesh& model, const Options& options, const Progress& progress) {
+  const Stopwatch total;
+  const ThreadTeam team;
+  ProgressBar bar(progress);
+  const Preparation prepared = prepare(model, options, bar);
+  const Foundation foundation = coarsen(prepared, options, bar);
+  const Search found = search(prepared, foundation, options, bar);
+  Result result = deliver(prepared, foundation, found, options, bar);
+  result.report = report(prepared, foundation, found, options);
+  result.report.add("seconds_total", total.seconds());
+  bar.show(100, "Done");
   return result;
 }
 
@@ -267,20 +284,15 @@ Result answer(const Preparation& model, const Foundation& foundation, const Sear
 
 Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
                               const Progress& progress) {
-  const Stopwatch total;
-  const ThreadTeam team;
-  ProgressBar bar(progress);
-
-  bar.show(0, "Checking the model");
-  const Preparation prepared(model, options);
-  const double secondsCheck = total.seconds();
-  const Foundation foundation = coarsenAndBound(prepared, options, bar);
-  const Search found = search(prepared, foundation, options, bar);
-  Result result = answer(prepared, foundation, found, options, secondsCheck, bar);
-
-  result.report.add("seconds_total", total.seconds());
-  bar.show(100, "Done");
-  return result;
+  try {
+    return run(model, options, progress);
+  } catch (const std::logic_error& failure) {
+    // Of CGAL, whose words do not say what to do.
+    throw std::runtime_error(std::string("This mesh is too uneven to be calculated with: use "
+                                         "Remeshing > Isotropic Explicit Remeshing, then run "
+                                         "again. (") +
+                             failure.what() + ")");
+  }
 }
 
 } // namespace massprops

@@ -31,10 +31,11 @@ struct Result {
 
 /// Finds the cavity that makes `model` reach `options.goal`. [MAB15]
 /// `model`: closed, manifold, coherently oriented components that do not cross; any units, any
-/// place. Small defects are mended (repair.h) and told.
+/// place. Small defects are mended (repair.h) and reported.
 /// Same input, same options: same output, bit for bit.
-/// \throw InvalidInput when the model is not such a surface or an option is absurd. A goal out of
-/// reach is no error: it is told in the report.
+/// \throw InvalidInput when the model is not such a surface or an option is absurd;
+/// std::runtime_error when a stage fails on it, with what to do about it. A goal out of
+/// reach is no error: it is in the report.
 Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
                               const Progress& progress = {});
 

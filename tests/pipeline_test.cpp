@@ -701,6 +701,23 @@ TEST(Pipeline, ShowsProgressAndTimeOfTheSearchForALargerWall) {
   EXPECT_GT(std::get<double>(report.at("seconds_largest_wall")), 0.0);
 }
 
+TEST(Pipeline, SaysWhatToDoWhereALibraryGivesUp) {
+  // CGAL's failures are logic errors.
+  Options options;
+  options.goal = GoalKind::Mass;
+  options.representable = [](const Points& points) -> Points {
+    if (points.rows() > 0) throw std::logic_error("CGAL ERROR: precondition violation!");
+    return points;
+  };
+  try {
+    optimizeMassProperties(blob(5), options);
+    FAIL() << "nothing was thrown";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("Isotropic Explicit Remeshing"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("precondition"), std::string::npos);
+  }
+}
+
 TEST(Pipeline, TellsItsProgressInOrder) {
   std::vector<int> percents;
   std::vector<std::string> stages;
