@@ -1,0 +1,208 @@
+#include "core/pipeline_stages.h"
+
+#include "core/answer/delivery.h"
+#include "core/answer/hollowing_report.h"
+#include "core/base/parallel.h"
+#include "core/model/frame.h"
+#include "core/reduced/search_strategy.h"
+
+#include <exception>
+#include <new>
+#include <utility>
+
+namespace massprops {
+namespace {
+
+bool moves(const Options& options) {
+  return options.outerUpperBound > 0.0;
+}
+
+PosedModel pose(const Solid& solid, const Options& options) {
+  requireSensible(options, solid.vertices().rows(), solid.diagonal());
+  PosedModel result = makePosedModel(solid, options);
+  if (result.open) requireSensibleForShell(options);
+  return result;
+}
+
+/// How far offsets along the field may go for a wall to be kept.
+OffsetBounds boundsKeeping(double wall, const Preparation& model, const MovingSurface& moving,
+                           const OffsetField& field, const Options& options) {
+  const bool isCopy = moving.vertices.rows() < model.posed.vertices.rows();
+  const auto bounds = isCopy ? innerBoundsOfCopy : innerBounds;
+  return keepingWall(moving.vertices, model.surface, field,
+                     bounds(field, wall, options.innerUpperBound), wall);
+}
+
+/// The outer surface's own bounds; it keeps the point that the body hangs from.
+OffsetBounds boundsOfOuter(const Preparation& model, const OffsetField& field,
+                           const Options& options) {
+  const PosedModel& posed = model.posed;
+  OffsetBounds bounds =
+      outerBounds(posed.vertices, field, options.outerLowerBound / posed.frame.length,
+                  options.outerUpperBound / posed.frame.length);
+  if (options.goal != GoalKind::Hang || posed.pivot) return bounds;
+  constexpr double kTop = 1e-4; // as at the ground contacts
+  const double top = posed.vertices.col(2).maxCoeff();
+  for (Eigen::Index v = 0; v < posed.vertices.rows(); ++v) {
+    if (posed.vertices(v, 2) >= top - kTop) bounds.lower[v] = bounds.upper[v] = 0.0;
+  }
+  return bounds;
+}
+
+Points representable(const Options& options, const Points& points) {
+  return options.representable ? options.representable(points) : points;
+}
+
+/// The search for a cavity with offsets along directions of at least this clearance.
+CavityTask taskAlong(double wantedClearance, const Preparation& model, const Foundation& foundation,
+                     const Options& options) {
+  const PosedModel& posed = model.posed;
+  const MovingSurface& moving = *foundation.coarse.moving;
+  const Points& axis = foundation.coarse.axis;
+  OffsetField field =
+      posed.open
+          ? offsetField(moving.vertices, posed.open->skin,
+                        levelAtRim(moving.vertices, moving.faces, posed.isLid, *posed.open, axis),
+                        wantedClearance)
+          : offsetField(moving.vertices, moving.faces, axis, wantedClearance);
+  CavityTask task{model.surface, *model.goal, {}, options.weights};
+  task.model.surface = foundation.coarse.moving;
+  task.model.inner = boundsKeeping(posed.wall, model, moving, field, options);
+  if (moves(options)) task.model.outer = boundsOfOuter(model, field, options);
+  task.model.field = std::move(field);
+  task.model.fillDensity = fillingSeenBy(options);
+  task.model.solidMoments = model.solidMoments;
+  task.model.isOpen = posed.open.has_value();
+  if (posed.open) task.open = &*posed.open;
+  task.inputMoments = model.solidMoments + moments(posed.cavities.vertices, posed.cavities.faces);
+  task.wall = posed.wall;
+  task.bound = foundation.bound;
+  const bool followsOuter =
+      options.goal == GoalKind::Float || options.goal == GoalKind::StandEmptyAndFilled;
+  if (moves(options) && followsOuter) {
+    task.goalFor = [&](const Points& outer) { return makeGoal(options, posed, outer); };
+  }
+  task.deliverable = [&](const Points& working) {
+    return toWorking(posed.frame, representable(options, toModel(posed.frame, working)));
+  };
+  return task;
+}
+
+} // namespace
+
+Preparation::Preparation(const TriangleMesh& model, const Options& options)
+    : solid(makeSolid(model, options.openSurface, rotationToUp(options.upAxis),
+                      CrossingCheck::Later)),
+      posed(pose(solid, options)),
+      surface(posed.vertices, posed.open ? posed.open->skin : posed.faces,
+              TriangleTree::Order::Spatial),
+      solidMoments(moments(posed.vertices, posed.faces)),
+      goal(makeGoal(options, posed, posed.vertices)),
+      isDecimated(!options.fullResolution && !moves(options) && !posed.open),
+      schedule(scheduleFor(posed.vertices.rows(), options.basisSize, isDecimated)) {}
+
+Preparation prepare(const TriangleMesh& model, const Options& options, ProgressBar& bar) {
+  bar.show(0, "Checking the model");
+  return {model, options};
+}
+
+Foundation coarsen(const Preparation& model, const Options& options, ProgressBar& bar) {
+  Foundation result;
+  const auto checkCrossings = [&] {
+    const Stopwatch time;
+    requireNoCrossings(model.solid);
+    result.secondsCrossings = time.seconds();
+  };
+  const auto findBound = [&] {
+    if (moves(options) || model.posed.open) return;
+    const Stopwatch time;
+    const AdmissibleCells cells = admissibleCells(model.surface, model.posed.wall);
+    if (cells.rows() == 0) return;
+    result.bound = optimalBound(*model.goal, options.weights, model.solidMoments,
+                                fillingSeenBy(options), cells);
+    result.secondsBound = time.seconds();
+  };
+  const auto coarsenModel = [&] {
+    bar.show(model.schedule.copy, "Coarse copies");
+    const CoarseningOptions wanted{options.basisSize, model.isDecimated, !options.fullResolution,
+                                   options.weights.smoothness > 0.0};
+    result.coarse = coarsen(
+        model.posed, wanted,
+        [&] { bar.show(model.schedule.skeleton, "Mean curvature skeleton and harmonic basis"); },
+        checkCrossings);
+  };
+  try {
+    // The bound needs no copies: both cores work.
+    inParallel(findBound, coarsenModel);
+  } catch (const InvalidInput&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {
+    // A stage that fails may do so for crossings that nobody has looked for yet.
+    requireNoCrossings(model.solid);
+    throw;
+  }
+  return result;
+}
+
+Search search(const Preparation& model, const Foundation& foundation, const Options& options,
+              ProgressBar& bar) {
+  bar.show(model.schedule.directions, "Offset directions");
+  Search result{taskAlong(kSlantedClearance, model, foundation, options), {}};
+  bar.show(model.schedule.search, "Optimization");
+  result.cavity = bestCavity(
+      result.task, [&] { return taskAlong(kSteepClearance, model, foundation, options); },
+      bar.within(model.schedule.search, Schedule::kEnd, "Optimization"));
+  const bool isFound = result.cavity.status == CavityStatus::Found;
+  result.goalAfter =
+      makeGoal(options, model.posed, isFound ? result.cavity.outer : model.posed.vertices);
+  if (result.cavity.status != CavityStatus::NoRoom) return result;
+
+  const Stopwatch time;
+  constexpr int kFound = 99; // before the report
+  result.largestWall = largestWall(
+      result.task,
+      [&](double wall) {
+        return boundsKeeping(wall, model, *foundation.coarse.moving, result.task.model.field,
+                             options);
+      },
+      bar.within(Schedule::kEnd, kFound, "Largest wall that leaves room"));
+  result.secondsLargestWall = time.seconds();
+  return result;
+}
+
+Result deliver(const Preparation& model, const Foundation& foundation, const Search& found,
+               const Options& options, ProgressBar& bar) {
+  bar.show(Schedule::kEnd, "Report");
+  Result result;
+  Delivery delivery =
+      deliver(model.solid, model.posed, found.task, found.cavity, foundation.coarse.vertexOf,
+              [&](const Points& points) { return representable(options, points); });
+  result.inner = std::move(delivery.inner);
+  result.innerWall = std::move(delivery.innerWall);
+  result.outer = std::move(delivery.outer);
+  if (found.cavity.status == CavityStatus::Found && options.showAnswer) {
+    bar.show(97, "Picture of the answer");
+    result.picture = pictureOf(model.posed, found.task, *found.goalAfter, found.cavity);
+  }
+  return result;
+}
+
+Report report(const Preparation& model, const Foundation& foundation, const Search& found,
+              const Options& options) {
+  const Coarsening& coarse = foundation.coarse;
+  Stages stages;
+  stages.repairs = model.solid.repairs().describe();
+  stages.skeletonFailures = coarse.skeletonFailures;
+  stages.largestWall = found.largestWall;
+  stages.secondsCheck = model.seconds + foundation.secondsCrossings;
+  stages.secondsCopy = coarse.secondsCopy;
+  stages.secondsSkeleton = coarse.secondsSkeleton;
+  stages.secondsBasis = coarse.secondsBasis;
+  stages.secondsLimit = foundation.secondsBound;
+  stages.secondsLargestWall = found.secondsLargestWall;
+  return hollowingReport(model.posed, found.task, *found.goalAfter, found.cavity, options, stages);
+}
+
+} // namespace massprops

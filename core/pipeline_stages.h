@@ -1,0 +1,96 @@
+// The stages of the story that pipeline.cpp tells.
+#pragma once
+
+#include "core/base/options.h"
+#include "core/base/stopwatch.h"
+#include "core/goals/goals.h"
+#include "core/model/posed_model.h"
+#include "core/model/solid.h"
+#include "core/optimum/optimal_bound.h"
+#include "core/pipeline.h"
+#include "core/query/triangle_tree.h"
+#include "core/reduced/cavity_search.h"
+#include "core/reduced/moving_surface.h"
+#include "core/reduced/schedule.h"
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <optional>
+
+namespace massprops {
+
+/// Reports to the caller how far the run has come; never goes back.
+class ProgressBar {
+public:
+  explicit ProgressBar(const Progress& progress) : progress_(progress) {}
+
+  void show(int percent, const char* stage) {
+    percent_ = std::max(percent_, percent);
+    if (progress_) progress_(percent_, stage);
+  }
+
+  /// The share of a stage that takes the bar from one percentage to another.
+  std::function<void(double)> within(int from, int to, const char* stage) {
+    return [=](double share) { show(from + static_cast<int>((to - from) * share), stage); };
+  }
+
+private:
+  const Progress& progress_;
+  int percent_ = 0;
+};
+
+/// The model, checked and put upright, and what follows from it alone. Neither copied nor moved,
+/// for its parts refer to each other.
+struct Preparation {
+  Preparation(const TriangleMesh& model, const Options& options);
+  Preparation(const Preparation&) = delete;
+  Preparation& operator=(const Preparation&) = delete;
+
+  const Stopwatch time;
+  const Solid solid;
+  const PosedModel posed;
+  const TriangleTree surface; ///< the outer surface, working frame
+  const Moments solidMoments; ///< of the outer surface, working frame
+  const std::unique_ptr<Goal> goal;
+  const bool isDecimated; ///< whether a copy moves inwards
+  const Schedule schedule;
+  const double seconds = time.seconds(); ///< all of this took
+};
+
+/// \throw InvalidInput when the model is no solid or an option is absurd
+Preparation prepare(const TriangleMesh& model, const Options& options, ProgressBar& bar);
+
+/// What moves inwards, and what the best of all cavities could do.
+struct Foundation {
+  Coarsening coarse;
+  std::optional<OptimalBound> bound;
+  double secondsBound = 0.0, secondsCrossings = 0.0;
+};
+
+/// \throw InvalidInput when the model crosses itself
+Foundation coarsen(const Preparation& model, const Options& options, ProgressBar& bar);
+
+/// What was asked for, and the best answer.
+struct Search {
+  CavityTask task;
+  CavityResult cavity;
+  /// For the outer surface as it has become, which a verdict may depend on.
+  std::unique_ptr<Goal> goalAfter = {};
+  double largestWall = 0.0; ///< working length; when the wanted one leaves no room
+  double secondsLargestWall = 0.0;
+};
+
+/// The task refers to `model`, `foundation` and `options`, which must outlive it.
+Search search(const Preparation& model, const Foundation& foundation, const Options& options,
+              ProgressBar& bar);
+
+/// All of the result but its report.
+Result deliver(const Preparation& model, const Foundation& foundation, const Search& found,
+               const Options& options, ProgressBar& bar);
+
+/// All keys of docs/report.md but `seconds_total`.
+Report report(const Preparation& model, const Foundation& foundation, const Search& found,
+              const Options& options);
+
+} // namespace massprops
