@@ -3,6 +3,7 @@
 #include "core/answer/hollowing_report.h"
 #include "core/base/parallel.h"
 #include "core/base/stopwatch.h"
+#include "core/goals/registry.h"
 #include "core/mesh/components.h"
 #include "core/mesh/decimation.h"
 #include "core/model/frame.h"
@@ -168,6 +169,7 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   const Solid solid =
       makeSolid(model, options.openSurface, rotationToUp(options.upAxis), CrossingCheck::Later);
   requireSensible(options, solid.vertices().rows(), solid.diagonal());
+  requireEnoughFunctions(options);
   const PosedModel posed = makePosedModel(solid, options);
   if (posed.open) requireSensibleForShell(options);
   const TriangleTree surface(posed.vertices, posed.open ? posed.open->skin : posed.faces,
@@ -311,10 +313,11 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
           representable(toModel(posed.frame, placed(cavity.outer, posed.vertexOf))), solid.faces()};
     }
   }
-  // A verdict may depend on the outer surface as it has become.
-  const std::unique_ptr<Goal> reached =
-      cavity.status == CavityStatus::Found ? makeGoal(options, posed, cavity.outer) : nullptr;
-  result.report = hollowingReport(posed, task, reached ? *reached : *goal, cavity, options, stages);
+  const std::unique_ptr<Verdict> asSolid = makeVerdict(options, posed, posed.vertices);
+  const std::unique_ptr<Verdict> reached =
+      cavity.status == CavityStatus::Found ? makeVerdict(options, posed, cavity.outer) : nullptr;
+  result.report = hollowingReport(posed, task, {*asSolid, reached ? *reached : *asSolid}, cavity,
+                                  options, stages);
   if (reached && options.showAnswer) {
     tell(97, "Picture of the answer");
     result.picture = pictureOf(posed, task, *reached, cavity);
