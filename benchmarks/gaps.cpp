@@ -2,6 +2,7 @@
 // from the best that any cavity with this wall could do. benchmarks/results.md keeps the output.
 //
 // usage: gaps [wall in per cent of the diagonal]   2 when it is not given
+#include "core/goals/registry.h"
 #include "core/pipeline.h"
 #include "samples.h"
 

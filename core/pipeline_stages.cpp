@@ -3,6 +3,7 @@
 #include "core/answer/delivery.h"
 #include "core/answer/hollowing_report.h"
 #include "core/base/parallel.h"
+#include "core/goals/registry.h"
 #include "core/model/frame.h"
 #include "core/reduced/search_strategy.h"
 
@@ -19,6 +20,7 @@ bool moves(const Options& options) {
 
 PosedModel pose(const Solid& solid, const Options& options) {
   requireSensible(options, solid.vertices().rows(), solid.diagonal());
+  requireEnoughFunctions(options);
   PosedModel result = makePosedModel(solid, options);
   if (result.open) requireSensibleForShell(options);
   return result;
@@ -155,8 +157,9 @@ Search search(const Preparation& model, const Foundation& foundation, const Opti
       result.task, [&] { return taskAlong(kSteepClearance, model, foundation, options); },
       bar.within(model.schedule.search, Schedule::kEnd, "Optimization"));
   const bool isFound = result.cavity.status == CavityStatus::Found;
-  result.goalAfter =
-      makeGoal(options, model.posed, isFound ? result.cavity.outer : model.posed.vertices);
+  result.verdictBefore = makeVerdict(options, model.posed, model.posed.vertices);
+  result.verdictAfter =
+      makeVerdict(options, model.posed, isFound ? result.cavity.outer : model.posed.vertices);
   if (result.cavity.status != CavityStatus::NoRoom) return result;
 
   const Stopwatch time;
@@ -184,7 +187,7 @@ Result deliver(const Preparation& model, const Foundation& foundation, const Sea
   result.outer = std::move(delivery.outer);
   if (found.cavity.status == CavityStatus::Found && options.showAnswer) {
     bar.show(97, "Picture of the answer");
-    result.picture = pictureOf(model.posed, found.task, *found.goalAfter, found.cavity);
+    result.picture = pictureOf(model.posed, found.task, *found.verdictAfter, found.cavity);
   }
   return result;
 }
@@ -202,7 +205,8 @@ Report report(const Preparation& model, const Foundation& foundation, const Sear
   stages.secondsBasis = coarse.secondsBasis;
   stages.secondsLimit = foundation.secondsBound;
   stages.secondsLargestWall = found.secondsLargestWall;
-  return hollowingReport(model.posed, found.task, *found.goalAfter, found.cavity, options, stages);
+  return hollowingReport(model.posed, found.task, {*found.verdictBefore, *found.verdictAfter},
+                         found.cavity, options, stages);
 }
 
 } // namespace massprops

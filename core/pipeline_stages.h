@@ -3,7 +3,8 @@
 
 #include "core/base/options.h"
 #include "core/base/stopwatch.h"
-#include "core/goals/goals.h"
+#include "core/goals/goal.h"
+#include "core/goals/verdict.h"
 #include "core/model/posed_model.h"
 #include "core/model/solid.h"
 #include "core/optimum/optimal_bound.h"
@@ -75,8 +76,8 @@ Foundation coarsen(const Preparation& model, const Options& options, ProgressBar
 struct Search {
   CavityTask task;
   CavityResult cavity;
-  /// For the outer surface as it has become, which a verdict may depend on.
-  std::unique_ptr<Goal> goalAfter = {};
+  /// Of the model, and of the outer surface as it has become.
+  std::unique_ptr<Verdict> verdictBefore = {}, verdictAfter = {};
   double largestWall = 0.0; ///< working length; when the wanted one leaves no room
   double secondsLargestWall = 0.0;
 };

@@ -1,5 +1,7 @@
 #include "filter_massprops/parameters.h"
 
+#include "core/goals/registry.h"
+
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -11,6 +13,14 @@ QStringList goalEntries() {
   QStringList entries;
   for (const std::string& name : goalNames()) entries.append(QString::fromStdString(name));
   return entries;
+}
+
+QString goalMeaning() {
+  std::string meaning = "What the model shall do once it is printed.";
+  for (const GoalEntry& goal : goalRegistry()) {
+    meaning += " " + goal.name + ": " + goal.promise + ".";
+  }
+  return QString::fromStdString(meaning);
 }
 
 QStringList axisNames() {
@@ -75,15 +85,8 @@ RichParameterList dialogParameters(double diagonal) {
     list.addParam(RichLength(name, static_cast<float>(value), 0.0F, range, label, meaning));
   };
 
-  list.addParam(RichEnum("goal", static_cast<int>(defaults.goal), goalEntries(), "Goal",
-                         "What the model shall do once it is printed. Stand: it stands on its "
-                         "ground contacts, as hard to tip over as possible. Spin: it spins as a "
-                         "top about the vertical axis through its lowest point. Yo-yo: it spins "
-                         "about its vertical axle, balanced on both sides. Stand empty and filled: "
-                         "it stands with its cavity empty and with it filled. Roll upright: it "
-                         "comes back upright from every position, like a tumbler. Float: it floats "
-                         "upright at the given waterline. Hang: it hangs upright from its topmost "
-                         "point or a given one. Mass: it weighs as much as is asked for."));
+  list.addParam(
+      RichEnum("goal", static_cast<int>(defaults.goal), goalEntries(), "Goal", goalMeaning()));
   list.addParam(RichEnum("up_axis", static_cast<int>(defaults.upAxis), axisNames(), "Up axis",
                          "Axis of the scene that points up when the print is used."));
   addLength("inner_lower_bound", 0.01F * range, "Minimum wall [mm]",

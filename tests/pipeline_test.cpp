@@ -1,4 +1,5 @@
 // The whole filter: what it promises about every result, measured with other means than its own.
+#include "core/goals/registry.h"
 #include "core/model/contact.h"
 #include "core/pipeline.h"
 

@@ -1,5 +1,6 @@
 #include "core/answer/hollowing_report.h"
 
+#include "core/goals/registry.h"
 #include "core/reduced/hollow_body.h"
 
 #include <algorithm>
@@ -25,43 +26,45 @@ MassProperties inModel(const Moments& massMoments, const Frame& frame, double de
 }
 
 /// What a cavity of any shape could do about a goal that is missed.
-std::string outlook(const CavityTask& task) {
+std::string outlook(const CavityTask& task, const Verdict& verdict) {
   if (!task.bound) return "";
   if (task.bound->violation <= OptimalBound::kReachable) {
     return " A cavity of another shape could reach it.";
   }
   return " No cavity of any shape that keeps this wall can reach it: " +
-         task.goal.bestInWords(task.bound->bestVerdict.value_or(task.bound->massMoments)) + ".";
+         verdict.bestInWords(task.bound->bestVerdict.value_or(task.bound->massMoments)) + ".";
 }
 
-std::string message(const CavityTask& task, const Goal& goalAfter, const CavityResult& cavity,
+std::string message(const CavityTask& task, const Verdicts& verdicts, const CavityResult& cavity,
                     const Body& before, const Body& after, double largestWall) {
-  std::string sentence =
-      goalAfter.isReached(after.mass) ? "The goal is reached" : "The goal is missed";
+  const bool isReached = verdicts.after.isReached(after.mass);
+  const bool keepsConstraints = after.violation <= kFeasibility;
+  const bool isSolved = isReached && keepsConstraints;
+  const std::string missed = isSolved           ? ""
+                             : keepsConstraints ? verdicts.after.whatIsMissed(after.mass)
+                                                : verdicts.after.worstViolation(after.mass);
+  std::string sentence = isReached ? "The goal is reached" : "The goal is missed";
+  const std::string bySolid = " by the solid model" + (isSolved ? "" : ", where " + missed);
   if (cavity.status == CavityStatus::NoRoom) {
-    return sentence +
-           (task.open != nullptr
-                ? " by the solid model; there is no room for an open shell with this wall: "
-                : " by the solid model; nothing can be hollowed at this wall: ") +
+    return sentence + bySolid +
+           (task.open != nullptr ? "; there is no room for an open shell with this wall: "
+                                 : "; nothing can be hollowed at this wall: ") +
            (largestWall > 0.0
                 ? "lower inner_lower_bound to " + toString(largestWall) + " or less."
                 : "lower inner_lower_bound, and refine the model with Remeshing > Isotropic "
                   "Explicit Remeshing, for no thinner wall was found to leave room either.");
   }
   if (cavity.status == CavityStatus::NoGain) {
-    return sentence +
-           " by the solid model, and no cavity with this wall was found to serve it "
-           "better." +
-           (before.violation > kFeasibility ? outlook(task) : "");
+    return sentence + bySolid + ", and no cavity with this wall was found to serve it better." +
+           (keepsConstraints ? "" : outlook(task, verdicts.before));
   }
-  if (task.goal.isReached(before.mass)) sentence += " (by the solid model too)";
+  if (verdicts.before.isReached(before.mass)) sentence += " (by the solid model too)";
   if (cavity.inspection.components == 0) {
     sentence += " by moving the outer surface alone, for no cavity has room behind this wall";
   }
-  return after.violation <= kFeasibility
-             ? sentence + "; all constraints hold."
-             : sentence + ": with the best cavity found " + goalAfter.worstViolation(after.mass) +
-                   "." + outlook(task);
+  if (isSolved) return sentence + "; all constraints hold.";
+  return sentence + ": with the best cavity found " + missed + "." +
+         (keepsConstraints ? "" : outlook(task, verdicts.before));
 }
 
 /// Vertices of what moves inwards, lids apart, that have no cavity behind them.
@@ -79,7 +82,7 @@ int solidVertices(const CavityTask& task, const CavityResult& cavity) {
 
 } // namespace
 
-Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Goal& goalAfter,
+Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Verdicts& verdicts,
                        const CavityResult& cavity, const Options& options, const Stages& stages) {
   const Body before = inputBody(task);
   const bool hollow = cavity.status == CavityStatus::Found;
@@ -91,8 +94,8 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Go
 
   Report report;
   report.add("goal", goalNames()[static_cast<std::size_t>(options.goal)]);
-  report.add("solved", after.violation <= kFeasibility && goalAfter.isReached(after.mass));
-  report.add("message", message(task, goalAfter, cavity, before, after,
+  report.add("solved", after.violation <= kFeasibility && verdicts.after.isReached(after.mass));
+  report.add("message", message(task, verdicts, cavity, before, after,
                                 stages.largestWall * posed.frame.length));
   report.add("objective_before", before.objective);
   report.add("objective_after", after.objective);
@@ -105,13 +108,13 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Go
   report.add("center_of_mass_after", modelAfter.centerOfMass);
   report.add("inertia_tensor_before", modelBefore.inertiaTensor);
   report.add("inertia_tensor_after", modelAfter.inertiaTensor);
-  task.goal.describe(before.mass, "before", report);
-  goalAfter.describe(after.mass, "after", report);
+  verdicts.before.describe(before.mass, "before", report);
+  verdicts.after.describe(after.mass, "after", report);
   if (task.bound) {
     report.add("objective_limit", task.bound->objective);
     report.add("gap_to_limit", gapToBound(*task.bound, before, after));
-    task.goal.describe(task.bound->massMoments, "limit", report);
-    if (task.bound->bestVerdict) task.goal.describe(*task.bound->bestVerdict, "best", report);
+    verdicts.before.describe(task.bound->massMoments, "limit", report);
+    if (task.bound->bestVerdict) verdicts.before.describe(*task.bound->bestVerdict, "best", report);
   }
   report.add("min_wall", hasCavity ? cavity.inspection.leastWall * posed.frame.length : 0.0);
   report.add("cavity_components", hollow ? cavity.inspection.components : 0);

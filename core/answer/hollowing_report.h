@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/report.h"
+#include "core/goals/verdict.h"
 #include "core/model/posed_model.h"
 #include "core/reduced/cavity_search.h"
 
@@ -22,9 +23,14 @@ struct Stages {
   double secondsLargestWall = 0.0; ///< looking for it
 };
 
-/// All keys of docs/report.md but `seconds_total`. `goalAfter`: the task's goal for the outer
-/// surface of the result. An empty cavity stands for the solid body.
-Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Goal& goalAfter,
+/// A verdict may depend on the outer surface: of the model, and as it has become.
+struct Verdicts {
+  const Verdict& before;
+  const Verdict& after;
+};
+
+/// All keys of docs/report.md but `seconds_total`. An empty cavity stands for the solid body.
+Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Verdicts& verdicts,
                        const CavityResult& cavity, const Options& options, const Stages& stages);
 
 } // namespace massprops

@@ -1,6 +1,7 @@
 #include "core/answer/picture.h"
 
 #include "core/answer/cutaway.h"
+#include "core/goals/verdict.h"
 #include "core/mesh/components.h"
 #include "core/model/posed_model.h"
 #include "core/reduced/cavity_search.h"
@@ -33,7 +34,7 @@ Vec2 widestDirection(const Points& vertices) {
 
 } // namespace
 
-Picture pictureOf(const PosedModel& posed, const CavityTask& task, const Goal& goalAfter,
+Picture pictureOf(const PosedModel& posed, const CavityTask& task, const Verdict& verdict,
                   const CavityResult& cavity) {
   const Moments massAfter =
       shellMoments(outerMoments(task, cavity), moments(cavity.inner, cavity.cavity.faces), 1.0,
@@ -58,7 +59,7 @@ Picture pictureOf(const PosedModel& posed, const CavityTask& task, const Goal& g
   annotations.addBall(before, kBeforeColour);
   annotations.addBall(after, kAfterColour);
   picture.marksName = "centre of mass";
-  const std::string drawn = goalAfter.draw(task.inputMoments, massAfter, annotations);
+  const std::string drawn = verdict.draw(task.inputMoments, massAfter, annotations);
   if (!drawn.empty()) picture.marksName += " and " + drawn;
   picture.marks = annotations.mesh();
 

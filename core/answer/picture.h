@@ -7,7 +7,7 @@
 
 namespace massprops {
 
-class Goal;
+class Verdict;
 struct CavityResult;
 struct CavityTask;
 struct PosedModel;
@@ -22,9 +22,8 @@ struct Picture {
   std::string marksName; ///< "centre of mass and contact area"
 };
 
-/// `goalAfter`: the task's goal for the outer surface of the result. \pre the search found
-/// something
-Picture pictureOf(const PosedModel& posed, const CavityTask& task, const Goal& goalAfter,
+/// `verdict`: for the outer surface of the result. \pre the search found something
+Picture pictureOf(const PosedModel& posed, const CavityTask& task, const Verdict& verdict,
                   const CavityResult& cavity);
 
 } // namespace massprops

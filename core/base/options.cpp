@@ -4,31 +4,6 @@
 #include <string>
 
 namespace massprops {
-namespace {
-
-/// As many coefficients are needed as there are equalities in the goal.
-int equalityCount(GoalKind goal) {
-  switch (goal) {
-  case GoalKind::Spin:
-    return 4;
-  case GoalKind::YoYo:
-    return 5;
-  case GoalKind::Float:
-    return 3;
-  case GoalKind::Hang:
-    return 2;
-  default:
-    return 1;
-  }
-}
-
-} // namespace
-
-const std::vector<std::string>& goalNames() {
-  static const std::vector<std::string> names = {
-      "Stand", "Spin", "Yo-yo", "Stand empty and filled", "Roll upright", "Float", "Hang", "Mass"};
-  return names;
-}
 
 void requireSensible(const Options& options, Eigen::Index vertexCount, double diagonal) {
   const auto require = [](bool holds, const std::string& sentence) {
@@ -42,11 +17,6 @@ void requireSensible(const Options& options, Eigen::Index vertexCount, double di
               std::to_string(vertexCount) +
               " vertices: lower basis_k below that, or refine the model with Remeshing > "
               "Subdivision Surfaces: Midpoint.");
-  const int equalities = equalityCount(options.goal);
-  require(options.basisSize >= equalities,
-          "basis_k is " + std::to_string(options.basisSize) + ": the goal " +
-              goalNames()[static_cast<std::size_t>(options.goal)] + " has to meet " +
-              std::to_string(equalities) + " conditions at once; give at least as many functions.");
   for (const std::optional<double>& radius : {options.radiusX, options.radiusY}) {
     require(!radius || (finite(*radius) && *radius > 0.0),
             "radius_x and radius_y must be positive, or 0 to take them from the model.");

@@ -5,12 +5,10 @@
 
 #include <functional>
 #include <optional>
-#include <string>
-#include <vector>
 
 namespace massprops {
 
-/// In the order of the dialog.
+/// In the order of the dialog; goals/registry.h says what they are.
 enum class GoalKind {
   Stand,
   Spin,
@@ -21,9 +19,6 @@ enum class GoalKind {
   Hang,
   Mass,
 };
-
-/// In the order of `GoalKind`, as the dialog shows them.
-const std::vector<std::string>& goalNames();
 
 /// In the order of the dialog.
 enum class UpAxis { PlusZ, PlusY, PlusX, MinusZ, MinusY, MinusX };
@@ -42,7 +37,7 @@ struct Weights {
 struct Options {
   GoalKind goal = GoalKind::Stand;
   /// k, the number of harmonic basis functions; less than the number of vertices and at least the
-  /// number of the goal's equalities: Spin 4, Yo-yo 5, Float 3, Hang 2, Mass 1.
+  /// number of the goal's equalities (goals/registry.h).
   int basisSize = 36;
   /// Half axes of the elliptic contact area along the two horizontal axes that follow the up axis
   /// cyclically (x, y for +Z); length. Empty: taken from the model's ground contacts.
@@ -58,7 +53,7 @@ struct Options {
   UpAxis upAxis = UpAxis::PlusZ;
   double density = 1.24;    ///< of the material, g/cm³; the default is PLA
   double fillDensity = 0.0; ///< of what fills the cavity, g/cm³
-  /// Spin: a point of the axis; Yo-yo: the middle of the axle; Hang: the point it hangs from. In
+  /// Spin: any point of the axis; Yo-yo: the middle of the axle; Hang: the point it hangs from. In
   /// model coordinates. Empty: Spin takes the centre of the ground contact, Yo-yo the point above
   /// it at half the height, Hang the middle of the topmost vertices.
   std::optional<Vec3> pivot;

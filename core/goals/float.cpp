@@ -1,4 +1,6 @@
-#include "core/goals/goals.h"
+#include "core/goals/float.h"
+
+#include "core/base/angles.h"
 #include "core/physics/hydrostatics.h"
 
 #include <Eigen/Eigenvalues>
@@ -11,33 +13,51 @@
 namespace massprops {
 namespace {
 
-constexpr double kDegrees = 180.0 / 3.14159265358979323846;
 /// Least metacentric height that the constraint asks for, in diagonals: print and water are not
 /// exact.
 constexpr double kLeastStability = 1e-3;
+/// A body that displaces a smaller share of its volume would have to weigh next to nothing.
+constexpr double kLeastDisplaced = 1e-6;
 /// Verdict: how far the body may lie from the wished pose.
 constexpr double kUpright = 1.0;  // degrees
 constexpr double kAtLevel = 0.01; // of the height
 
+/// How the body shall lie in the water; depends on its outer surface only.
+struct WishedPose {
+  double volume; ///< of the whole body
+  double height, draught;
+  double displaced; ///< volume below the waterline
+  Vec3 buoyancy;    ///< its centroid
+  double metacentre;
+  bool isSubmerged;
+};
+
+WishedPose wishedPose(const Points& outer, const Faces& faces, double waterLevel) {
+  const double bottom = outer.col(2).minCoeff();
+  WishedPose pose{};
+  pose.volume = moments(outer, faces)[0];
+  pose.height = outer.col(2).maxCoeff() - bottom;
+  pose.draught = waterLevel * pose.height;
+  pose.isSubmerged = waterLevel == 1.0;
+  const Displacement wished = displacement(outer, faces, Vec3::UnitZ(), bottom + pose.draught);
+  if (!(wished.volume > kLeastDisplaced * pose.volume)) {
+    throw InvalidInput("Up to water_level = " + toString(waterLevel) +
+                       " of its height the model has less than a millionth of its volume, so that "
+                       "it would have to weigh next to nothing to float there: raise water_level, "
+                       "then run again.");
+  }
+  pose.displaced = wished.volume;
+  pose.buoyancy = wished.centre;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(
+      wished.waterplaneMoment.topLeftCorner<2, 2>());
+  pose.metacentre = pose.buoyancy.z() + axes.eigenvalues()[0] / pose.displaced;
+  return pose;
+}
+
 class FloatGoal final : public Goal {
 public:
-  FloatGoal(const Points& outer, const Faces& faces, double waterLevel, double waterDensity,
-            const Weights& weights, double lengthUnit)
-      : outer_(outer), faces_(faces), waterDensity_(waterDensity), weight_(weights.centerOfMass),
-        lengthUnit_(lengthUnit) {
-    const double bottom = outer.col(2).minCoeff();
-    height_ = outer.col(2).maxCoeff() - bottom;
-    draught_ = waterLevel * height_;
-    const Moments whole = moments(outer, faces);
-    volume_ = whole[0];
-    const Displacement wished = displacement(outer, faces, Vec3::UnitZ(), bottom + draught_);
-    displaced_ = wished.volume;
-    buoyancy_ = wished.centre;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(
-        wished.waterplaneMoment.topLeftCorner<2, 2>());
-    metacentre_ = buoyancy_.z() + axes.eigenvalues()[0] / displaced_;
-    submerged_ = waterLevel == 1.0;
-  }
+  FloatGoal(WishedPose wished, double waterDensity, const Weights& weights)
+      : wished_(std::move(wished)), waterDensity_(waterDensity), weight_(weights.centerOfMass) {}
 
   GoalValue objective(const Moments& massMoments) const override {
     const MassProperties body = massProperties(massMoments);
@@ -51,8 +71,9 @@ public:
   GoalConstraints equalities(const Moments& massMoments) const override {
     const MassProperties body = massProperties(massMoments);
     GoalConstraints h{Vector(3), MomentGradients::Zero(3, 10)};
-    const double most = waterDensity_ * volume_;
-    h.values << body.mass / most - displaced_ / volume_, (body.centerOfMass - buoyancy_).head<2>();
+    const double most = waterDensity_ * wished_.volume;
+    h.values << body.mass / most - wished_.displaced / wished_.volume,
+        (body.centerOfMass - wished_.buoyancy).head<2>();
     h.gradients(0, 0) = 1.0 / most;
     h.gradients.bottomRows<2>() = massPropertyGradients(body).centerOfMass.topRows<2>();
     return h;
@@ -61,28 +82,52 @@ public:
   /// GM ≥ margin, for the axis with the least.
   GoalConstraints inequalities(const Moments& massMoments) const override {
     const MassProperties body = massProperties(massMoments);
-    return {Vector::Constant(1, body.centerOfMass.z() - metacentre_ + kLeastStability),
+    return {Vector::Constant(1, body.centerOfMass.z() - wished_.metacentre + kLeastStability),
             massPropertyGradients(body).centerOfMass.row(2)};
   }
 
   bool usesInertia() const override { return false; }
 
+private:
+  WishedPose wished_;
+  double waterDensity_;
+  double weight_;
+};
+
+class FloatVerdict final : public Verdict {
+public:
+  FloatVerdict(const Points& outer, const Faces& faces, const WishedPose& wished,
+               double waterDensity, double lengthUnit)
+      : goal_(wished, waterDensity, {}), outer_(outer), faces_(faces), wished_(wished),
+        waterDensity_(waterDensity), lengthUnit_(lengthUnit) {}
+
   bool isReached(const Moments& massMoments) const override { return isReached(pose(massMoments)); }
 
   std::string worstViolation(const Moments& massMoments) const override {
     const MassProperties body = massProperties(massMoments);
-    const double weight = body.mass / (waterDensity_ * displaced_) - 1.0;
-    const double aside = (body.centerOfMass - buoyancy_).head<2>().norm();
-    const double unstable = inequalities(massMoments).values[0];
-    if (std::abs(equalities(massMoments).values[0]) >= std::max(aside, unstable)) {
-      return "it is " + toString(100.0 * std::abs(weight)) + " % too " +
-             (weight > 0.0 ? "heavy" : "light") + " for this waterline";
+    const Vector equalities = goal_.equalities(massMoments).values;
+    const double aside = equalities.tail<2>().cwiseAbs().maxCoeff();
+    const double unstable = goal_.inequalities(massMoments).values[0];
+    if (std::abs(equalities[0]) >= std::max(aside, unstable)) {
+      const double excess = body.mass / (waterDensity_ * wished_.displaced) - 1.0;
+      return "it is " + toString(100.0 * std::abs(excess)) + " % too " +
+             (excess > 0.0 ? "heavy" : "light") + " for this waterline";
     }
     return aside >= unstable
-               ? "the centre of mass lies " + toString(aside * lengthUnit_) +
+               ? "the centre of mass lies " + toString(equalities.tail<2>().norm() * lengthUnit_) +
                      " off the vertical through the centre of buoyancy"
                : "the metacentric height is " +
-                     toString((metacentre_ - body.centerOfMass.z()) * lengthUnit_) + " only";
+                     toString((wished_.metacentre - body.centerOfMass.z()) * lengthUnit_) + " only";
+  }
+
+  std::string whatIsMissed(const Moments& massMoments) const override {
+    const FloatingPose p = pose(massMoments);
+    if (!p.floats) return "it sinks";
+    if (heel(p) >= kUpright) return "it floats " + toString(heel(p)) + "\u00b0 off upright";
+    return isAtLevel(p) ? "the metacentric height is " +
+                              toString(p.leastMetacentricHeight * lengthUnit_) + " only"
+                        : "it floats with a draught of " + toString(p.draught * lengthUnit_) +
+                              " instead of " + toString(wished_.draught * lengthUnit_);
   }
 
   void describe(const Moments& massMoments, const std::string& suffix,
@@ -92,7 +137,8 @@ public:
     report.add("heel_angle_" + suffix, heel(p));
     report.add("metacentric_height_" + suffix, p.leastMetacentricHeight * lengthUnit_);
     report.add("metacentric_height_long_" + suffix, p.greatestMetacentricHeight * lengthUnit_);
-    report.add("reserve_buoyancy_" + suffix, 1.0 - massMoments[0] / (waterDensity_ * volume_));
+    report.add("reserve_buoyancy_" + suffix,
+               1.0 - massMoments[0] / (waterDensity_ * wished_.volume));
     report.add("floats_" + suffix, p.floats);
     report.add("floats_upright_" + suffix, isReached(p));
   }
@@ -122,31 +168,35 @@ private:
   static double heel(const FloatingPose& p) {
     return std::acos(std::clamp(p.up.z(), -1.0, 1.0)) * kDegrees;
   }
+  bool isAtLevel(const FloatingPose& p) const {
+    return wished_.isSubmerged ? p.submerged
+                               : std::abs(p.draught - wished_.draught) <= kAtLevel * wished_.height;
+  }
   bool isReached(const FloatingPose& p) const {
-    const bool atLevel =
-        submerged_ ? p.submerged : std::abs(p.draught - draught_) <= kAtLevel * height_;
-    return p.floats && atLevel && heel(p) < kUpright && p.leastMetacentricHeight > 0.0;
+    return p.floats && isAtLevel(p) && heel(p) < kUpright && p.leastMetacentricHeight > 0.0;
   }
 
+  FloatGoal goal_;
   Points outer_;
   Faces faces_;
+  WishedPose wished_;
   double waterDensity_;
-  double weight_;
   double lengthUnit_;
-  double height_ = 0.0, volume_ = 0.0;
-  /// Of the wished pose.
-  double draught_ = 0.0, displaced_ = 0.0, metacentre_ = 0.0;
-  Vec3 buoyancy_ = Vec3::Zero();
-  bool submerged_ = false;
   mutable std::optional<std::pair<Moments, FloatingPose>> known_;
 };
 
 } // namespace
 
 std::unique_ptr<Goal> makeFloatGoal(const Points& outer, const Faces& faces, double waterLevel,
-                                    double waterDensity, const Weights& weights,
-                                    double lengthUnit) {
-  return std::make_unique<FloatGoal>(outer, faces, waterLevel, waterDensity, weights, lengthUnit);
+                                    double waterDensity, const Weights& weights) {
+  return std::make_unique<FloatGoal>(wishedPose(outer, faces, waterLevel), waterDensity, weights);
+}
+
+std::unique_ptr<Verdict> makeFloatVerdict(const Points& outer, const Faces& faces,
+                                          double waterLevel, double waterDensity,
+                                          double lengthUnit) {
+  return std::make_unique<FloatVerdict>(outer, faces, wishedPose(outer, faces, waterLevel),
+                                        waterDensity, lengthUnit);
 }
 
 } // namespace massprops

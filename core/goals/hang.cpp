@@ -1,4 +1,6 @@
-#include "core/goals/goals.h"
+#include "core/goals/hang.h"
+
+#include "core/base/angles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +9,6 @@
 namespace massprops {
 namespace {
 
-constexpr double kDegrees = 180.0 / 3.14159265358979323846;
 /// The centre of mass hangs at least this deep below the point, in diagonals: nearer to it the
 /// smallest flaw of the print turns the body.
 constexpr double kLeastDepth = 0.01;
@@ -16,9 +17,8 @@ constexpr double kUpright = 0.5; // degrees
 
 class HangGoal final : public Goal {
 public:
-  HangGoal(Vec3 suspension, const Weights& weights, double lengthUnit)
-      : suspension_(std::move(suspension)), weight_(weights.centerOfMass), lengthUnit_(lengthUnit) {
-  }
+  HangGoal(Vec3 suspension, const Weights& weights)
+      : suspension_(std::move(suspension)), weight_(weights.centerOfMass) {}
 
   GoalValue objective(const Moments& massMoments) const override {
     const MassProperties body = massProperties(massMoments);
@@ -44,14 +44,25 @@ public:
 
   bool usesInertia() const override { return false; }
 
+private:
+  Vec3 suspension_;
+  double weight_;
+};
+
+class HangVerdict final : public Verdict {
+public:
+  HangVerdict(Vec3 suspension, double lengthUnit)
+      : suspension_(std::move(suspension)), lengthUnit_(lengthUnit) {}
+
   bool isReached(const Moments& massMoments) const override {
     return angle(massMoments) < kUpright;
   }
 
   std::string worstViolation(const Moments& massMoments) const override {
-    const Vec3 c = massProperties(massMoments).centerOfMass - suspension_;
-    return inequalities(massMoments).values[0] > c.head<2>().norm()
-               ? "the centre of mass lies " + toString((c.z() + kLeastDepth) * lengthUnit_) +
+    const Vec3 c = belowPoint(massMoments);
+    const double tooHigh = c.z() + kLeastDepth;
+    return tooHigh > c.head<2>().cwiseAbs().maxCoeff()
+               ? "the centre of mass lies " + toString(tooHigh * lengthUnit_) +
                      " too high under the suspension point"
                : "the centre of mass lies " + toString(c.head<2>().norm() * lengthUnit_) +
                      " off the plumb line of the suspension point";
@@ -59,9 +70,8 @@ public:
 
   void describe(const Moments& massMoments, const std::string& suffix,
                 Report& report) const override {
-    const Vec3 c = massProperties(massMoments).centerOfMass - suspension_;
     report.add("hanging_angle_" + suffix, angle(massMoments));
-    report.add("hanging_depth_" + suffix, -c.z() * lengthUnit_);
+    report.add("hanging_depth_" + suffix, -belowPoint(massMoments).z() * lengthUnit_);
     report.add("hangs_upright_" + suffix, isReached(massMoments));
   }
 
@@ -78,22 +88,28 @@ public:
   }
 
 private:
+  /// The centre of mass as seen from the suspension point.
+  Vec3 belowPoint(const Moments& massMoments) const {
+    return massProperties(massMoments).centerOfMass - suspension_;
+  }
   /// By which the body turns until its centre of mass is plumb below the point, degrees.
   double angle(const Moments& massMoments) const {
-    const Vec3 c = massProperties(massMoments).centerOfMass - suspension_;
+    const Vec3 c = belowPoint(massMoments);
     return std::atan2(c.head<2>().norm(), -c.z()) * kDegrees;
   }
 
   Vec3 suspension_;
-  double weight_;
   double lengthUnit_;
 };
 
 } // namespace
 
-std::unique_ptr<Goal> makeHangGoal(const Vec3& suspension, const Weights& weights,
-                                   double lengthUnit) {
-  return std::make_unique<HangGoal>(suspension, weights, lengthUnit);
+std::unique_ptr<Goal> makeHangGoal(const Vec3& suspension, const Weights& weights) {
+  return std::make_unique<HangGoal>(suspension, weights);
+}
+
+std::unique_ptr<Verdict> makeHangVerdict(const Vec3& suspension, double lengthUnit) {
+  return std::make_unique<HangVerdict>(suspension, lengthUnit);
 }
 
 } // namespace massprops

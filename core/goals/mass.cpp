@@ -1,4 +1,4 @@
-#include "core/goals/goals.h"
+#include "core/goals/mass.h"
 
 #include <cmath>
 
@@ -10,9 +10,8 @@ constexpr double kExact = 1e-3;
 
 class MassGoal final : public Goal {
 public:
-  MassGoal(double solidMass, const std::optional<double>& target, const Weights& weights,
-           double grams)
-      : solidMass_(solidMass), target_(target), weight_(weights.centerOfMass), grams_(grams) {}
+  MassGoal(double solidMass, const std::optional<double>& target, const Weights& weights)
+      : solidMass_(solidMass), target_(target), weight_(weights.centerOfMass) {}
 
   GoalValue objective(const Moments& massMoments) const override {
     const double excess = (massMoments[0] - target_.value_or(0.0)) / solidMass_;
@@ -34,6 +33,16 @@ public:
 
   bool usesInertia() const override { return false; }
 
+private:
+  double solidMass_;
+  std::optional<double> target_;
+  double weight_;
+};
+
+class MassVerdict final : public Verdict {
+public:
+  MassVerdict(const std::optional<double>& target, double grams) : target_(target), grams_(grams) {}
+
   bool isReached(const Moments& massMoments) const override {
     return !target_ || std::abs(massMoments[0] - *target_) <= kExact * *target_;
   }
@@ -52,17 +61,19 @@ public:
   }
 
 private:
-  double solidMass_;
   std::optional<double> target_;
-  double weight_;
   double grams_;
 };
 
 } // namespace
 
 std::unique_ptr<Goal> makeMassGoal(double solidMass, const std::optional<double>& target,
-                                   const Weights& weights, double grams) {
-  return std::make_unique<MassGoal>(solidMass, target, weights, grams);
+                                   const Weights& weights) {
+  return std::make_unique<MassGoal>(solidMass, target, weights);
+}
+
+std::unique_ptr<Verdict> makeMassVerdict(const std::optional<double>& target, double grams) {
+  return std::make_unique<MassVerdict>(target, grams);
 }
 
 } // namespace massprops

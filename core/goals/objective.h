@@ -2,7 +2,8 @@
 #pragma once
 
 #include "core/base/minimize.h"
-#include "core/goals/goals.h"
+#include "core/base/options.h"
+#include "core/goals/goal.h"
 
 namespace massprops {
 

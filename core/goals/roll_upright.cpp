@@ -1,4 +1,7 @@
-#include "core/goals/goals.h"
+#include "core/goals/roll_upright.h"
+
+#include "core/base/angles.h"
+#include "core/goals/stand.h"
 #include "core/physics/stable_poses.h"
 
 #include <algorithm>
@@ -7,7 +10,6 @@
 namespace massprops {
 namespace {
 
-constexpr double kDegrees = 180.0 / 3.14159265358979323846;
 /// Radius of the disc that stands for an area that is a point, in diagonals.
 constexpr double kPointRadius = 0.01;
 /// A swaying body rolls over steps this high, in diagonals: those of the facets of a round foot.
@@ -20,27 +22,22 @@ ContactArea areaOrDisc(ContactArea area) {
   return area;
 }
 
-class RollUprightGoal final : public Goal {
+class RollUprightVerdict final : public Verdict {
 public:
-  RollUprightGoal(const ContactArea& area, const Points& outer, const Weights& weights,
-                  double lengthUnit)
-      : stand_(makeStandGoal(areaOrDisc(area), weights, lengthUnit)), hull_(rollingHull(outer)) {}
-
-  GoalValue objective(const Moments& massMoments) const override {
-    return stand_->objective(massMoments);
-  }
-  GoalConstraints equalities(const Moments& massMoments) const override {
-    return stand_->equalities(massMoments);
-  }
-  GoalConstraints inequalities(const Moments& massMoments) const override {
-    return stand_->inequalities(massMoments);
-  }
-  bool usesInertia() const override { return stand_->usesInertia(); }
+  RollUprightVerdict(const ContactArea& area, const Points& outer, double lengthUnit)
+      : stand_(makeStandVerdict(areaOrDisc(area), lengthUnit)), hull_(rollingHull(outer)) {}
 
   bool isReached(const Moments& massMoments) const override { return isReached(rest(massMoments)); }
 
   std::string worstViolation(const Moments& massMoments) const override {
     return stand_->worstViolation(massMoments);
+  }
+
+  std::string whatIsMissed(const Moments& massMoments) const override {
+    const StablePoses poses = rest(massMoments);
+    return poses.count == 1 ? "it comes to rest " + toString(tilt(poses)) + "\u00b0 off upright"
+                            : "it can come to rest on " + toString(poses.count) +
+                                  " different faces instead of one";
   }
 
   void describe(const Moments& massMoments, const std::string& suffix,
@@ -67,15 +64,19 @@ private:
     return poses.count == 1 && tilt(poses) < kUpright;
   }
 
-  std::unique_ptr<Goal> stand_;
+  std::unique_ptr<Verdict> stand_;
   RollingHull hull_;
 };
 
 } // namespace
 
-std::unique_ptr<Goal> makeRollUprightGoal(const ContactArea& area, const Points& outer,
-                                          const Weights& weights, double lengthUnit) {
-  return std::make_unique<RollUprightGoal>(area, outer, weights, lengthUnit);
+std::unique_ptr<Goal> makeRollUprightGoal(const ContactArea& area, const Weights& weights) {
+  return makeStandGoal(areaOrDisc(area), weights);
+}
+
+std::unique_ptr<Verdict> makeRollUprightVerdict(const ContactArea& area, const Points& outer,
+                                                double lengthUnit) {
+  return std::make_unique<RollUprightVerdict>(area, outer, lengthUnit);
 }
 
 } // namespace massprops

@@ -1,4 +1,6 @@
-#include "core/goals/goals.h"
+#include "core/goals/spin.h"
+
+#include "core/base/angles.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -9,7 +11,6 @@
 namespace massprops {
 namespace {
 
-constexpr double kDegrees = 180.0 / 3.14159265358979323846;
 /// Verdict: wobble that a hand-spun top does not show.
 constexpr double kSteadyTilt = 0.5;    // degrees
 constexpr double kSteadyOffset = 1e-3; // of the diagonal
@@ -17,20 +18,19 @@ constexpr double kStableRatio = 1.0;
 
 class SpinGoal final : public Goal {
 public:
-  SpinGoal(const Moments& solidMassMoments, const Weights& weights, double lengthUnit, Vec3 pivot)
+  SpinGoal(const Moments& solidMassMoments, const Weights& weights, Vec2 axis)
       : solidMass_(solidMassMoments[0]),
         solidInertia_(massProperties(solidMassMoments).inertiaTensor(2, 2)), weights_(weights),
-        lengthUnit_(lengthUnit), pivot_(std::move(pivot)) {}
+        axis_(std::move(axis)) {}
 
   GoalValue objective(const Moments& massMoments) const override {
     const MassProperties body = massProperties(massMoments);
     const MassPropertyGradients gradients = massPropertyGradients(body);
     const Mat3& I = body.inertiaTensor;
     GoalValue f;
-    // (m/m_solid) (c_z − p_z) = (S_z − m p_z)/m_solid
+    // (m/m_solid) c_z = S_z/m_solid
     const double weight = weights_.centerOfMass / solidMass_;
-    f.value = weight * (massMoments[3] - massMoments[0] * pivot_.z());
-    f.gradient[0] = -weight * pivot_.z();
+    f.value = weight * massMoments[3];
     f.gradient[3] = weight;
     // The moments in the horizontal plane: I_a² + I_b² = I_xx² + I_yy² + 2 I_xy²
     const double plane = I(0, 0) * I(0, 0) + I(1, 1) * I(1, 1) + 2.0 * I(0, 1) * I(0, 1);
@@ -51,7 +51,7 @@ public:
     GoalConstraints h;
     h.values.resize(4);
     h.gradients.resize(4, 10);
-    h.values << (body.centerOfMass - pivot_).head<2>(), body.inertiaTensor(0, 2) / solidInertia_,
+    h.values << body.centerOfMass.head<2>() - axis_, body.inertiaTensor(0, 2) / solidInertia_,
         body.inertiaTensor(1, 2) / solidInertia_;
     h.gradients.topRows<2>() = gradients.centerOfMass.topRows<2>();
     h.gradients.row(2) = gradients.inertiaTensor.row(5) / solidInertia_;
@@ -62,33 +62,53 @@ public:
   GoalConstraints inequalities(const Moments& massMoments) const override {
     const MassProperties body = massProperties(massMoments);
     GoalConstraints g;
-    g.values = Vector::Constant(1, pivot_.z() - body.centerOfMass.z());
+    g.values = Vector::Constant(1, -body.centerOfMass.z());
     g.gradients = -massPropertyGradients(body).centerOfMass.row(2);
     return g;
   }
 
   bool usesInertia() const override { return true; }
 
+private:
+  double solidMass_;
+  double solidInertia_;
+  Weights weights_;
+  Vec2 axis_;
+};
+
+class SpinVerdict final : public Verdict {
+public:
+  SpinVerdict(const Moments& solidMassMoments, const Vec2& axis, double lengthUnit)
+      : goal_(solidMassMoments, {}, axis), axis_(axis), lengthUnit_(lengthUnit) {}
+
   bool isReached(const Moments& massMoments) const override {
-    const Verdict v = verdict(massMoments);
-    const bool largest = std::min(v.ratioA, v.ratioB) > kStableRatio;
-    const bool smallest = std::max(v.ratioA, v.ratioB) < kStableRatio;
-    return v.offset < kSteadyOffset && v.tilt < kSteadyTilt && (largest || smallest);
+    const Motion v = motion(massMoments);
+    return v.offset < kSteadyOffset && v.tilt < kSteadyTilt && v.isStable();
   }
 
   std::string worstViolation(const Moments& massMoments) const override {
-    const Vector values = equalities(massMoments).values;
-    const double offAxis = values.head<2>().norm();
-    const double product = values.tail<2>().norm();
-    return offAxis >= product
-               ? "the centre of mass lies " + toString(offAxis * lengthUnit_) + " off the axis"
-               : "the products of inertia I_xz, I_yz reach " + toString(product) +
-                     " of the solid's I_zz";
+    const Vector values = goal_.equalities(massMoments).values;
+    const double below = goal_.inequalities(massMoments).values[0];
+    return below > values.cwiseAbs().maxCoeff()
+               ? "the centre of mass lies " + toString(below * lengthUnit_) +
+                     " below the end of the axis on the ground"
+               : axisViolation(values, lengthUnit_);
+  }
+
+  std::string whatIsMissed(const Moments& massMoments) const override {
+    const Motion v = motion(massMoments);
+    if (v.offset >= kSteadyOffset) return offAxis(v.offset * lengthUnit_);
+    if (!v.isStable()) {
+      return "it has its middle moment of inertia about the axis, about which no body spins "
+             "steadily (I_zz/I_a = " +
+             toString(v.ratioA) + ", I_zz/I_b = " + toString(v.ratioB) + ")";
+    }
+    return "the principal axis of inertia leans by " + toString(v.tilt) + "\u00b0";
   }
 
   void describe(const Moments& massMoments, const std::string& suffix,
                 Report& report) const override {
-    const Verdict v = verdict(massMoments);
+    const Motion v = motion(massMoments);
     report.add("axis_offset_" + suffix, v.offset * lengthUnit_);
     report.add("axis_tilt_" + suffix, v.tilt);
     report.add("moment_ratio_a_" + suffix, v.ratioA);
@@ -99,20 +119,27 @@ public:
   std::string draw(const Moments& /*before*/, const Moments& /*after*/,
                    Annotations& annotations) const override {
     const double over = 0.1 * annotations.box().diagonal().norm();
-    annotations.addLine({pivot_.x(), pivot_.y(), annotations.box().min().z() - over},
-                        {pivot_.x(), pivot_.y(), annotations.box().max().z() + over},
-                        kGroundColour);
+    annotations.addLine({axis_.x(), axis_.y(), annotations.box().min().z() - over},
+                        {axis_.x(), axis_.y(), annotations.box().max().z() + over}, kGroundColour);
     return "axis";
   }
 
+  static std::string offAxis(double distance) {
+    return "the centre of mass lies " + toString(distance) + " off the axis";
+  }
+
 private:
-  struct Verdict {
+  struct Motion {
     double offset;         ///< of the centre of mass from the axis, working length
     double tilt;           ///< of the principal axis nearest to the vertical, degrees
     double ratioA, ratioB; ///< I_zz/I_a ≤ I_zz/I_b of the horizontal moments I_a ≥ I_b
+
+    bool isStable() const {
+      return std::min(ratioA, ratioB) > kStableRatio || std::max(ratioA, ratioB) < kStableRatio;
+    }
   };
 
-  Verdict verdict(const Moments& massMoments) const {
+  Motion motion(const Moments& massMoments) const {
     const MassProperties body = massProperties(massMoments);
     const Eigen::SelfAdjointEigenSolver<Mat3> principal(body.inertiaTensor);
     double upright = 0.0;
@@ -122,23 +149,35 @@ private:
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> horizontal(
         body.inertiaTensor.topLeftCorner<2, 2>());
     const double axial = body.inertiaTensor(2, 2);
-    return {(body.centerOfMass - pivot_).head<2>().norm(),
+    return {(body.centerOfMass.head<2>() - axis_).norm(),
             std::acos(std::min(1.0, upright)) * kDegrees, axial / horizontal.eigenvalues()[1],
             axial / horizontal.eigenvalues()[0]};
   }
 
-  double solidMass_;
-  double solidInertia_;
-  Weights weights_;
+  SpinGoal goal_;
+  Vec2 axis_;
   double lengthUnit_;
-  Vec3 pivot_;
 };
 
 } // namespace
 
 std::unique_ptr<Goal> makeSpinGoal(const Moments& solidMassMoments, const Weights& weights,
-                                   double lengthUnit, const Vec3& pivot) {
-  return std::make_unique<SpinGoal>(solidMassMoments, weights, lengthUnit, pivot);
+                                   const Vec2& axis) {
+  return std::make_unique<SpinGoal>(solidMassMoments, weights, axis);
+}
+
+std::unique_ptr<Verdict> makeSpinVerdict(const Moments& solidMassMoments, const Vec2& axis,
+                                         double lengthUnit) {
+  return std::make_unique<SpinVerdict>(solidMassMoments, axis, lengthUnit);
+}
+
+std::string axisViolation(const Eigen::Vector4d& equalities, double lengthUnit) {
+  const Vec2 offset = equalities.head<2>();
+  const Vec2 products = equalities.tail<2>();
+  return offset.cwiseAbs().maxCoeff() >= products.cwiseAbs().maxCoeff()
+             ? SpinVerdict::offAxis(offset.norm() * lengthUnit)
+             : "the products of inertia I_xz, I_yz reach " + toString(products.norm()) +
+                   " of the solid's I_zz";
 }
 
 } // namespace massprops

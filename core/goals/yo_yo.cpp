@@ -1,6 +1,9 @@
-#include "core/goals/goals.h"
+#include "core/goals/yo_yo.h"
+
+#include "core/goals/spin.h"
 
 #include <cmath>
+#include <utility>
 
 namespace massprops {
 namespace {
@@ -11,10 +14,9 @@ constexpr double kCentred = 1e-3;
 /// Spin without the height, and with the centre of mass in the middle of the axle.
 class YoYoGoal final : public Goal {
 public:
-  YoYoGoal(const Moments& solidMassMoments, Weights weights, double lengthUnit, const Vec3& pivot)
-      : lengthUnit_(lengthUnit), pivot_(pivot) {
+  YoYoGoal(const Moments& solidMassMoments, Weights weights, const Vec3& pivot) : pivot_(pivot) {
     weights.centerOfMass = 0.0;
-    spin_ = makeSpinGoal(solidMassMoments, weights, lengthUnit, pivot);
+    spin_ = makeSpinGoal(solidMassMoments, weights, pivot.head<2>());
   }
 
   GoalValue objective(const Moments& massMoments) const override {
@@ -36,16 +38,32 @@ public:
 
   bool usesInertia() const override { return true; }
 
+private:
+  std::unique_ptr<Goal> spin_;
+  Vec3 pivot_;
+};
+
+class YoYoVerdict final : public Verdict {
+public:
+  YoYoVerdict(const Moments& solidMassMoments, const Vec3& pivot, double lengthUnit)
+      : goal_(solidMassMoments, {}, pivot),
+        spin_(makeSpinVerdict(solidMassMoments, pivot.head<2>(), lengthUnit)), pivot_(pivot),
+        lengthUnit_(lengthUnit) {}
+
   bool isReached(const Moments& massMoments) const override {
     return spin_->isReached(massMoments) && std::abs(offMiddle(massMoments)) < kCentred;
   }
 
   std::string worstViolation(const Moments& massMoments) const override {
     const double along = std::abs(offMiddle(massMoments));
-    return along < largestViolation(*this, massMoments)
-               ? spin_->worstViolation(massMoments)
+    return along < largestViolation(goal_, massMoments)
+               ? axisViolation(goal_.equalities(massMoments).values.head<4>(), lengthUnit_)
                : "the centre of mass lies " + toString(along * lengthUnit_) +
                      " off the middle of the axle";
+  }
+
+  std::string whatIsMissed(const Moments& massMoments) const override {
+    return spin_->whatIsMissed(massMoments);
   }
 
   void describe(const Moments& massMoments, const std::string& suffix,
@@ -67,16 +85,22 @@ private:
     return massProperties(massMoments).centerOfMass.z() - pivot_.z();
   }
 
-  std::unique_ptr<Goal> spin_;
-  double lengthUnit_;
+  YoYoGoal goal_;
+  std::unique_ptr<Verdict> spin_;
   Vec3 pivot_;
+  double lengthUnit_;
 };
 
 } // namespace
 
 std::unique_ptr<Goal> makeYoYoGoal(const Moments& solidMassMoments, const Weights& weights,
-                                   double lengthUnit, const Vec3& pivot) {
-  return std::make_unique<YoYoGoal>(solidMassMoments, weights, lengthUnit, pivot);
+                                   const Vec3& pivot) {
+  return std::make_unique<YoYoGoal>(solidMassMoments, weights, pivot);
+}
+
+std::unique_ptr<Verdict> makeYoYoVerdict(const Moments& solidMassMoments, const Vec3& pivot,
+                                         double lengthUnit) {
+  return std::make_unique<YoYoVerdict>(solidMassMoments, pivot, lengthUnit);
 }
 
 } // namespace massprops

@@ -1,5 +1,7 @@
 #include "core/model/contact.h"
 
+#include "core/base/angles.h"
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/convex_hull_2.h>
 
@@ -12,7 +14,6 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kContactTolerance = 1e-4;
 
 double cross(const Vec2& a, const Vec2& b) {
@@ -31,10 +32,12 @@ std::vector<Vec2> convexHull(const std::vector<Vec2>& points) {
   return result;
 }
 
+/// About one of its corners: far from the origin the terms would cancel.
 double signedArea(const std::vector<Vec2>& polygon) {
+  const Vec2& base = polygon.front();
   double twice = 0.0;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+    twice += cross(polygon[i] - base, polygon[i + 1] - base);
   }
   return 0.5 * twice;
 }
@@ -52,9 +55,9 @@ Vec2 centroid(const std::vector<Vec2>& polygon) {
   return base + sum / twice;
 }
 
-/// Minimum over all unit directions u of extent(u) − u·c: the distance to the nearest edge's line
-/// inside of the polygon, minus the distance to the polygon outside.
-double signedDistance(const std::vector<Vec2>& polygon, const Vec2& c) {
+/// The distance to the nearest edge's line inside of the polygon, minus the distance to the polygon
+/// outside.
+double marginWithin(const std::vector<Vec2>& polygon, const Vec2& c) {
   double inside = std::numeric_limits<double>::infinity();
   double outside = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -69,6 +72,28 @@ double signedDistance(const std::vector<Vec2>& polygon, const Vec2& c) {
 
 Vec2 direction(double angle) {
   return {std::cos(angle), std::sin(angle)};
+}
+
+/// Smooth in the direction's angle: a scan brackets the minimum, golden sections refine it.
+double marginWithin(const ContactArea& ellipse, const Vec2& c) {
+  const auto marginAt = [&](double angle) {
+    return extent(ellipse, direction(angle)) - direction(angle).dot(c);
+  };
+  constexpr int kSamples = 720;
+  const double step = 2.0 * kPi / kSamples;
+  double best = 0.0;
+  for (int i = 1; i < kSamples; ++i) {
+    if (marginAt(i * step) < marginAt(best)) best = i * step;
+  }
+  double low = best - step;
+  double high = best + step;
+  const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
+  while (high - low > 1e-12) {
+    const double p = high - golden * (high - low);
+    const double q = low + golden * (high - low);
+    (marginAt(p) < marginAt(q) ? high : low) = marginAt(p) < marginAt(q) ? q : p;
+  }
+  return marginAt(0.5 * (low + high));
 }
 
 } // namespace
@@ -134,33 +159,12 @@ std::vector<Vec2> outline(const ContactArea& area) {
   return corners;
 }
 
+double signedDistance(const ContactArea& area, const Vec2& c) {
+  return area.radii ? marginWithin(area, c) : marginWithin(area.polygon, c);
+}
+
 double tippingAngle(const ContactArea& area, const Vec3& centre) {
-  const Vec2 c = centre.head<2>();
-  double margin = 0.0;
-  if (area.radii) {
-    // Smooth in the direction's angle: a scan brackets the minimum, golden sections refine it.
-    const auto marginAt = [&](double angle) {
-      return extent(area, direction(angle)) - direction(angle).dot(c);
-    };
-    constexpr int kSamples = 720;
-    const double step = 2.0 * kPi / kSamples;
-    double best = 0.0;
-    for (int i = 1; i < kSamples; ++i) {
-      if (marginAt(i * step) < marginAt(best)) best = i * step;
-    }
-    double low = best - step;
-    double high = best + step;
-    const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
-    while (high - low > 1e-12) {
-      const double p = high - golden * (high - low);
-      const double q = low + golden * (high - low);
-      (marginAt(p) < marginAt(q) ? high : low) = marginAt(p) < marginAt(q) ? q : p;
-    }
-    margin = marginAt(0.5 * (low + high));
-  } else {
-    margin = signedDistance(area.polygon, c);
-  }
-  return std::atan2(margin, centre.z()) * 180.0 / kPi;
+  return std::atan2(signedDistance(area, centre.head<2>()), centre.z()) * 180.0 / kPi;
 }
 
 } // namespace massprops

@@ -40,6 +40,10 @@ double extent(const ContactArea& area, const Vec2& u);
 /// Corners of the area, counter-clockwise; an ellipse by 64 points.
 std::vector<Vec2> outline(const ContactArea& area);
 
+/// Distance of `c` from the area's border, positive inside, negative outside: the minimum over all
+/// unit directions u of extent(u) − u·c.
+double signedDistance(const ContactArea& area, const Vec2& c);
+
 /// Smallest angle, in degrees, by which a body must be tilted until it falls, its centre of mass
 /// being at `centre` above the ground and relative to the area's centre: the minimum over all
 /// horizontal directions u of atan2(extent(u) − u·c, c_z). Negative: it falls by itself.

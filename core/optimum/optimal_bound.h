@@ -1,7 +1,8 @@
 // The best that any cavity could do: what is reached is measured against it.
 #pragma once
 
-#include "core/goals/goals.h"
+#include "core/base/options.h"
+#include "core/goals/goal.h"
 #include "core/query/triangle_tree.h"
 
 #include <optional>

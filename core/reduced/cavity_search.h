@@ -3,7 +3,7 @@
 
 #include "core/base/types.h"
 #include "core/check/inspection.h"
-#include "core/goals/goals.h"
+#include "core/goals/goal.h"
 #include "core/model/open_surface.h"
 #include "core/optimum/optimal_bound.h"
 #include "core/reduced/cavity.h"

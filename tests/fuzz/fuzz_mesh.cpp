@@ -3,6 +3,7 @@
 //
 // The first byte chooses how the rest is read: as coordinates and indices just as they come, or as
 // changes to a small solid, which get deeper into the filter.
+#include "core/goals/registry.h"
 #include "core/model/solid.h"
 #include "core/pipeline.h"
 #include "judge/checks.h"
@@ -211,7 +212,7 @@ TriangleMesh changedSolid(Bytes& bytes) {
 
 Options someOptions(Bytes& bytes, double diagonal) {
   Options options;
-  options.goal = static_cast<GoalKind>(bytes.below(8));
+  options.goal = static_cast<GoalKind>(bytes.below(static_cast<int>(goalRegistry().size())));
   options.basisSize = 1 + bytes.below(8);
   options.innerLowerBound = diagonal * std::pow(10.0, -3.0 * bytes.share());
   options.innerUpperBound = 0.05 + 0.95 * bytes.share();

@@ -1,96 +1,38 @@
 // Objectives, constraints and verdicts of the goals on bodies whose behaviour is known, and their
 // derivatives.
-#include "core/goals/goals.h"
+#include "core/base/angles.h"
+#include "core/goals/float.h"
+#include "core/goals/hang.h"
+#include "core/goals/mass.h"
+#include "core/goals/roll_upright.h"
+#include "core/goals/spin.h"
+#include "core/goals/stand.h"
+#include "core/goals/stand_empty_and_filled.h"
+#include "core/goals/yo_yo.h"
 
+#include "goals/goal_checks.h"
 #include "shapes.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace massprops::testing {
 namespace {
 
 const Weights kPublished;
 
-Moments momentsOf(const TriangleMesh& mesh) {
-  return moments(mesh.vertices, mesh.faces);
-}
-
-ContactArea square(double side) {
-  const double h = side / 2;
-  return {{{-h, -h}, {h, -h}, {h, h}, {-h, h}}, {}};
-}
-
-ContactArea ellipse(double rx, double ry) {
-  return {{}, Vec2(rx, ry)};
-}
-
-/// A body of mass `m` with its centre at `c` and the inertia of a ball.
-Moments bodyAt(const Vec3& c, double m = 1.0) {
-  const TriangleMesh ball = sphere(4);
-  const Moments unit = momentsOf(ball) / momentsOf(ball)[0];
-  return m * translated(unit, c);
-}
-
-double number(const Report& report, const std::string& key) {
-  return std::get<double>(report.at(key));
-}
-
-bool truth(const Report& report, const std::string& key) {
-  return std::get<bool>(report.at(key));
-}
-
-Report described(const Goal& goal, const Moments& m) {
-  Report report;
-  goal.describe(m, "after", report);
-  return report;
-}
-
-/// All values of the goal in one vector: objective, equalities, inequalities.
-Vector allValues(const Goal& goal, const Moments& m) {
-  const Vector e = goal.equalities(m).values;
-  const Vector g = goal.inequalities(m).values;
-  Vector all(1 + e.size() + g.size());
-  all << goal.objective(m).value, e, g;
-  return all;
-}
-
-Matrix allGradients(const Goal& goal, const Moments& m) {
-  const MomentGradients e = goal.equalities(m).gradients;
-  const MomentGradients g = goal.inequalities(m).gradients;
-  Matrix all(1 + e.rows() + g.rows(), 10);
-  all.row(0) = goal.objective(m).gradient;
-  if (e.rows() > 0) all.middleRows(1, e.rows()) = e;
-  if (g.rows() > 0) all.bottomRows(g.rows()) = g;
-  return all;
-}
-
-void expectGradientsMatch(const Goal& goal, const Moments& m) {
-  const Matrix gradients = allGradients(goal, m);
-  // Smooth functions of order one: truncation h² = 1e-10, rounding 1e-16/h = 1e-11; both times the
-  // third derivatives and values, some tens for the quotient of moments.
-  const double h = 1e-5;
-  for (int k = 0; k < 10; ++k) {
-    Moments step = Moments::Zero();
-    step[k] = h;
-    const Vector difference = (allValues(goal, m + step) - allValues(goal, m - step)) / (2 * h);
-    for (Eigen::Index r = 0; r < difference.size(); ++r) {
-      EXPECT_NEAR(gradients(r, k), difference[r], 1e-6 * (1 + std::abs(difference[r])))
-          << "value " << r << ", moment " << k;
-    }
-  }
-}
-
 TEST(StandGoal, HasTheGradientsOfItsValues) {
   const Moments m = momentsOf(transformed(blob(5), someRotation(), {0.2, -0.1, 0.7}));
   for (const ContactArea& area : {square(0.5), ellipse(0.3, 0.2)}) {
-    expectGradientsMatch(*makeStandGoal(area, kPublished, 1.0), m);
+    expectGradientsMatch(*makeStandGoal(area, kPublished), m);
   }
 }
 
 TEST(StandGoal, IsTheHeightAndTheSquaredDistanceFromTheContactCentre) {
-  const auto goal = makeStandGoal(square(1.0), kPublished, 1.0);
+  const auto goal = makeStandGoal(square(1.0), kPublished);
   EXPECT_NEAR(goal->objective(bodyAt({0.2, -0.3, 0.6})).value, 0.04 + 0.09 + 0.6, 1e-12);
   EXPECT_NEAR(goal->objective(bodyAt({0.2, -0.3, 0.6}, 7.0)).value, 0.04 + 0.09 + 0.6, 1e-12);
 }
@@ -99,15 +41,15 @@ TEST(StandGoal, ScalesItsObjectiveWithTheWeightOfTheCentreOfMass) {
   Weights triple;
   triple.centerOfMass = 3.0;
   const Moments m = bodyAt({0.2, -0.3, 0.6});
-  EXPECT_NEAR(makeStandGoal(square(1.0), triple, 1.0)->objective(m).value,
-              3 * makeStandGoal(square(1.0), kPublished, 1.0)->objective(m).value, 1e-12);
+  EXPECT_NEAR(makeStandGoal(square(1.0), triple)->objective(m).value,
+              3 * makeStandGoal(square(1.0), kPublished)->objective(m).value, 1e-12);
 }
 
 TEST(StandGoal, IsReachedExactlyAboveTheContactArea) {
   for (const ContactArea& area : {square(1.0), ellipse(0.5, 0.5)}) {
-    const auto goal = makeStandGoal(area, kPublished, 1.0);
-    for (const double x : {0.0, 0.3, 0.49}) EXPECT_TRUE(goal->isReached(bodyAt({x, 0, 0.6})));
-    for (const double x : {0.51, 2.0}) EXPECT_FALSE(goal->isReached(bodyAt({x, 0, 0.6})));
+    const auto verdict = makeStandVerdict(area, 1.0);
+    for (const double x : {0.0, 0.3, 0.49}) EXPECT_TRUE(verdict->isReached(bodyAt({x, 0, 0.6})));
+    for (const double x : {0.51, 2.0}) EXPECT_FALSE(verdict->isReached(bodyAt({x, 0, 0.6})));
   }
 }
 
@@ -115,16 +57,17 @@ TEST(StandGoal, HasConstraintsThatImplyStandingWithAMargin) {
   // Whatever satisfies the constraints stands; what is beyond the area violates them.
   Random random(17);
   for (const ContactArea& area : {square(0.8), ellipse(0.5, 0.25)}) {
-    const auto goal = makeStandGoal(area, kPublished, 1.0);
+    const auto goal = makeStandGoal(area, kPublished);
+    const auto verdict = makeStandVerdict(area, 1.0);
     int feasible = 0;
     for (int trial = 0; trial < 300; ++trial) {
       const Moments m = bodyAt({0.6 * random(), 0.6 * random(), 0.5 + 0.4 * random()});
       const bool holds = goal->inequalities(m).values.maxCoeff() <= 0.0;
       feasible += holds ? 1 : 0;
       if (holds) {
-        EXPECT_GT(number(described(*goal, m), "tip_angle_after"), 0.0);
+        EXPECT_GT(number(described(*verdict, m), "tip_angle_after"), 0.0);
       }
-      if (!goal->isReached(m)) {
+      if (!verdict->isReached(m)) {
         EXPECT_GT(goal->inequalities(m).values.maxCoeff(), 0.0);
       }
     }
@@ -134,46 +77,117 @@ TEST(StandGoal, HasConstraintsThatImplyStandingWithAMargin) {
 }
 
 TEST(StandGoal, NeedsTheCentreOfMassAboveTheGround) {
-  const auto goal = makeStandGoal(square(1.0), kPublished, 1.0);
+  const auto goal = makeStandGoal(square(1.0), kPublished);
   EXPECT_GT(goal->inequalities(bodyAt({0, 0, -0.1})).values.maxCoeff(), 0.0);
   EXPECT_LE(goal->inequalities(bodyAt({0, 0, 0.1})).values.maxCoeff(), 0.0);
 }
 
 TEST(StandGoal, ReportsTheTippingAngle) {
-  const auto goal = makeStandGoal(square(1.0), kPublished, 1.0);
-  const Report stands = described(*goal, bodyAt({0, 0, 0.5}));
+  const auto verdict = makeStandVerdict(square(1.0), 1.0);
+  const Report stands = described(*verdict, bodyAt({0, 0, 0.5}));
   EXPECT_NEAR(number(stands, "tip_angle_after"), 45.0, 1e-9);
   EXPECT_TRUE(truth(stands, "stands_after"));
-  const Report falls = described(*goal, bodyAt({1.0, 0, 0.5}));
+  const Report falls = described(*verdict, bodyAt({1.0, 0, 0.5}));
   EXPECT_NEAR(number(falls, "tip_angle_after"), -45.0, 1e-9);
   EXPECT_FALSE(truth(falls, "stands_after"));
 }
 
+/// A 100 × 60 foot whose first corner is rounded by an arc of so many segments, as shares of 100.
+ContactArea footWithArc(int segments) {
+  constexpr double kRadius = 0.4;
+  ContactArea foot{{{0.5, -0.3}, {0.5, 0.3}, {-0.5, 0.3}}, {}};
+  for (int i = 0; i <= segments; ++i) {
+    const double t = kPi * (1.0 + 0.5 * i / segments);
+    foot.polygon.emplace_back(-0.5 + kRadius + kRadius * std::cos(t),
+                              -0.3 + kRadius + kRadius * std::sin(t));
+  }
+  return foot;
+}
+
+/// By how much the centre of mass is beyond the edges, each moved inwards by a tenth of its
+/// distance from the origin; negative within all of them.
+double beyondEveryEdge(const ContactArea& area, const Vec2& c) {
+  double most = -1.0;
+  for (std::size_t i = 0; i < area.polygon.size(); ++i) {
+    const Vec2 p = area.polygon[i];
+    const Vec2 edge = area.polygon[(i + 1) % area.polygon.size()] - p;
+    const Vec2 normal = Vec2(edge.y(), -edge.x()).normalized();
+    most = std::max(most, normal.dot(c - 0.9 * p));
+  }
+  return most;
+}
+
+TEST(StandGoal, HasTheConstraintsOfAllEdgesHoweverManyCornersAFootHas) {
+  Random random(29);
+  for (const int segments : {20, 60, 200, 2000}) {
+    const ContactArea foot = footWithArc(segments);
+    const auto goal = makeStandGoal(foot, kPublished);
+    // The solver's time grows with the constraints; with so few it is that of its evaluations.
+    EXPECT_LE(goal->inequalities(bodyAt({0, 0, 0.5})).values.size(), 66) << segments;
+    for (int trial = 0; trial < 200; ++trial) {
+      const Vec3 c(0.7 * random(), 0.5 * random(), 0.5);
+      EXPECT_NEAR(largestViolation(*goal, bodyAt(c)),
+                  std::max(0.0, beyondEveryEdge(foot, c.head<2>())), 1e-12)
+          << segments << " segments, " << c.transpose();
+    }
+    expectGradientsMatch(*goal, bodyAt({-0.41, -0.29, 0.5}));
+    expectGradientsMatch(*goal, bodyAt({0.1, 0.05, 0.5}));
+  }
+}
+
 TEST(StandGoal, KeepsManyCornersOfARoundFoot) {
-  // 1000 corners on a circle: the constraint polygon is inscribed, so it is never too generous.
   ContactArea round;
   for (int i = 0; i < 1000; ++i) {
-    const double t = 2 * std::acos(-1.0) * i / 1000;
+    const double t = 2 * kPi * i / 1000;
     round.polygon.emplace_back(0.3 * std::cos(t), 0.3 * std::sin(t));
   }
-  const auto goal = makeStandGoal(round, kPublished, 1.0);
-  EXPECT_LT(goal->inequalities(bodyAt({0, 0, 0.5})).values.size(), 100);
+  const auto goal = makeStandGoal(round, kPublished);
   for (int i = 0; i < 64; ++i) {
     const double t = 0.1 * i;
-    const Vec3 outside(0.301 * std::cos(t), 0.301 * std::sin(t), 0.5);
-    const Vec3 inside(0.2 * std::cos(t), 0.2 * std::sin(t), 0.5);
-    EXPECT_GT(goal->inequalities(bodyAt(outside)).values.maxCoeff(), 0.0);
-    EXPECT_LE(goal->inequalities(bodyAt(inside)).values.maxCoeff(), 0.0);
+    for (const double r : {0.2, 0.3}) {
+      // Within the inscribed and the circumscribed circle: 0.27 π²/2e6 apart.
+      const double beyond = largestViolation(*goal, bodyAt({r * std::cos(t), r * std::sin(t), 1}));
+      EXPECT_NEAR(beyond, std::max(0.0, r - 0.27), 2e-6);
+    }
   }
+}
+
+TEST(StandVerdict, TellsTheDistanceFromThePolygon) {
+  // The square of 20 less a tenth ends at 9.
+  const auto verdict = makeStandVerdict(square(1.0), 20.0);
+  const auto told = [&](const Vec3& c) { return verdict->worstViolation(bodyAt(c / 20.0)); };
+  EXPECT_NE(told({11, 2, 5}).find("lies 2 outside"), std::string::npos) << told({11, 2, 5});
+  // Beyond a corner: 3, 4, 5.
+  EXPECT_NE(told({12, -13, 5}).find("lies 5 outside"), std::string::npos) << told({12, -13, 5});
+  EXPECT_NE(told({9.5, 0, -2}).find("lies 2 below the ground"), std::string::npos);
+}
+
+TEST(StandVerdict, TellsTheDistanceFromTheEllipse) {
+  // Half axes of 10 and 5 less a tenth: 9 and 4.5.
+  const auto verdict = makeStandVerdict(ellipse(0.5, 0.25), 20.0);
+  const auto told = [&](const Vec3& c) {
+    const std::string sentence = verdict->worstViolation(bodyAt(c / 20.0));
+    const std::string words = "the centre of mass lies ";
+    EXPECT_EQ(sentence.rfind(words, 0), 0U) << sentence;
+    return std::stod(sentence.substr(words.size()));
+  };
+  // Golden sections find the direction to half of 16 digits, the sentence has 9.
+  EXPECT_NEAR(told({15, 0, 5}), 6.0, 1e-6);
+  EXPECT_NEAR(told({0, -6, 5}), 1.5, 1e-6);
+  // From a point along the normal of another one: it is the nearest.
+  const double t = 0.7;
+  const Vec2 onEllipse(9 * std::cos(t), 4.5 * std::sin(t));
+  const Vec2 normal = Vec2(std::cos(t) / 9, std::sin(t) / 4.5).normalized();
+  const Vec2 c = onEllipse + 3.0 * normal;
+  EXPECT_NEAR(told({c.x(), c.y(), 5}), 3.0, 1e-6);
 }
 
 std::unique_ptr<Goal> spinGoal(const Moments& solid, const Weights& weights = kPublished) {
-  return makeSpinGoal(solid, weights, 1.0);
+  return makeSpinGoal(solid, weights);
 }
 
-/// A box of the given size that stands on the pivot, its centre above it.
-Moments standingBox(const Vec3& size) {
-  return momentsOf(transformed(box(size, 1), Mat3::Identity(), {0, 0, size.z() / 2 + 0.1}));
+std::unique_ptr<Verdict> spinVerdict(const Moments& solid) {
+  return makeSpinVerdict(solid, Vec2::Zero(), 1.0);
 }
 
 TEST(SpinGoal, HasTheGradientsOfItsValues) {
@@ -253,12 +267,12 @@ TEST(SpinGoal, ReportsOffsetTiltAndRatios) {
   const TriangleMesh leaning = transformed(transformed(box(s, 1), rotation({1, 0, 0}, 0.2)),
                                            Mat3::Identity(), {0.03, -0.04, 0.5});
   const Moments solid = momentsOf(leaning);
-  const Report report = described(*makeSpinGoal(solid, kPublished, 200.0), solid);
+  const Report report = described(*makeSpinVerdict(solid, Vec2::Zero(), 200.0), solid);
   EXPECT_NEAR(number(report, "axis_offset_after"), 0.05 * 200.0, 1e-9);
   EXPECT_NEAR(number(report, "axis_tilt_after"), 0.2 * 180 / std::acos(-1.0), 1e-9);
 
   const Moments upright = standingBox(s);
-  const Report straight = described(*spinGoal(upright), upright);
+  const Report straight = described(*spinVerdict(upright), upright);
   const double axial = s.x() * s.x() + s.y() * s.y();
   EXPECT_NEAR(number(straight, "moment_ratio_a_after"), axial / (s.x() * s.x() + s.z() * s.z()),
               1e-9);
@@ -270,41 +284,68 @@ TEST(SpinGoal, IsReachedAboutTheLargestAndTheSmallestMomentButNotTheMiddleOne) {
   for (const auto& [size, spins] : std::vector<std::pair<Vec3, bool>>{
            {{1.0, 0.8, 0.3}, true}, {{0.3, 0.4, 1.0}, true}, {{1.0, 0.3, 0.6}, false}}) {
     const Moments m = standingBox(size);
-    EXPECT_EQ(spinGoal(m)->isReached(m), spins) << size.transpose();
+    EXPECT_EQ(spinVerdict(m)->isReached(m), spins) << size.transpose();
   }
 }
 
 TEST(SpinGoal, IsNotReachedOffTheAxis) {
   const Moments m = translated(standingBox({1.0, 0.8, 0.3}), {0.01, 0, 0});
-  EXPECT_FALSE(spinGoal(m)->isReached(m));
+  EXPECT_FALSE(spinVerdict(m)->isReached(m));
 }
 
-TEST(SpinGoal, TurnsAboutThePivot) {
+TEST(SpinGoal, TurnsAboutTheGivenAxis) {
   const Moments m = standingBox({1.0, 0.8, 0.3});
-  const Vec3 pivot(0.2, -0.1, 0.05);
-  const auto goal = makeSpinGoal(m, kPublished, 1.0, pivot);
-  EXPECT_NEAR(goal->objective(m).value, spinGoal(m)->objective(m).value - 0.05, 1e-12);
+  const Vec2 axis(0.2, -0.1);
+  const auto goal = makeSpinGoal(m, kPublished, axis);
+  const auto verdict = makeSpinVerdict(m, axis, 1.0);
+  EXPECT_NEAR(goal->objective(m).value, spinGoal(m)->objective(m).value, 1e-12);
   EXPECT_LT(largestViolation(*goal, translated(m, {0.2, -0.1, 0})), 1e-12);
-  EXPECT_FALSE(goal->isReached(m));
-  EXPECT_TRUE(goal->isReached(translated(m, {0.2, -0.1, 0})));
+  EXPECT_FALSE(verdict->isReached(m));
+  EXPECT_TRUE(verdict->isReached(translated(m, {0.2, -0.1, 0})));
   expectGradientsMatch(*goal, 20 * m);
+}
+
+TEST(SpinVerdict, NamesTheConstraintThatIsViolatedMost) {
+  const Moments upright = standingBox({1.0, 0.8, 0.3});
+  const auto goal = makeSpinGoal(upright, kPublished);
+  const auto verdict = makeSpinVerdict(upright, Vec2::Zero(), 100.0);
+  const auto told = [&](const Moments& m) { return verdict->worstViolation(m); };
+  EXPECT_EQ(told(translated(upright, {0.03, -0.04, 0})), "the centre of mass lies 5 off the axis");
+  const TriangleMesh leaning =
+      transformed(transformed(box({1.0, 0.8, 0.3}, 1), rotation({1, 0, 0}, 0.3)), Mat3::Identity(),
+                  {0.001, 0, 0.5});
+  EXPECT_GT(goal->equalities(momentsOf(leaning)).values.tail<2>().norm(), 0.001);
+  EXPECT_EQ(told(momentsOf(leaning)).find("the products of inertia"), 0U);
+  // The centre of the box is 0.25 high.
+  EXPECT_EQ(told(translated(upright, {0.03, 0.04, -0.45})),
+            "the centre of mass lies 20 below the end of the axis on the ground");
+}
+
+TEST(YoYoVerdict, NamesTheConstraintThatIsViolatedMost) {
+  const Moments m = standingBox({1.0, 0.9, 0.4});
+  const auto verdict = makeYoYoVerdict(m, {0, 0, 0.3}, 100.0);
+  EXPECT_EQ(verdict->worstViolation(translated(m, {0.03, 0.04, -0.02})),
+            "the centre of mass lies 5 off the axis");
+  EXPECT_EQ(verdict->worstViolation(translated(m, {0.03, 0.04, -0.35})),
+            "the centre of mass lies 35 off the middle of the axle");
 }
 
 TEST(YoYoGoal, HasTheGradientsOfItsValues) {
   const Moments solid = momentsOf(transformed(blob(5), someRotation(), {0.2, -0.1, 0.7}));
-  expectGradientsMatch(*makeYoYoGoal(solid, kPublished, 1.0, {0.1, 0.2, 0.5}), solid);
+  expectGradientsMatch(*makeYoYoGoal(solid, kPublished, {0.1, 0.2, 0.5}), solid);
 }
 
 TEST(YoYoGoal, IsReachedWithTheCentreInTheMiddleOfTheAxleOnly) {
   const Moments m = standingBox({1.0, 0.9, 0.4}); // its middle at 0.3
-  const auto goal = makeYoYoGoal(m, kPublished, 100.0, {0, 0, 0.3});
-  EXPECT_TRUE(goal->isReached(m));
+  const auto goal = makeYoYoGoal(m, kPublished, {0, 0, 0.3});
+  const auto verdict = makeYoYoVerdict(m, {0, 0, 0.3}, 100.0);
+  EXPECT_TRUE(verdict->isReached(m));
   EXPECT_LT(largestViolation(*goal, m), 1e-12);
   const Moments high = translated(m, {0, 0, 0.02});
-  EXPECT_FALSE(goal->isReached(high));
+  EXPECT_FALSE(verdict->isReached(high));
   EXPECT_NEAR(largestViolation(*goal, high), 0.02, 1e-12);
-  EXPECT_NEAR(number(described(*goal, high), "middle_offset_after"), 2.0, 1e-9);
-  EXPECT_TRUE(truth(described(*goal, high), "spins_after"));
+  EXPECT_NEAR(number(described(*verdict, high), "middle_offset_after"), 2.0, 1e-9);
+  EXPECT_TRUE(truth(described(*verdict, high), "spins_after"));
   EXPECT_NEAR(goal->objective(high).value, goal->objective(m).value, 1e-12); // no height in it
 }
 
@@ -312,7 +353,7 @@ TEST(StandEmptyAndFilledGoal, HasTheGradientsOfItsValues) {
   const Moments outer = momentsOf(transformed(blob(5), someRotation(), {0.2, -0.1, 0.9}));
   const Moments cavity = momentsOf(transformed(blob(4), 0.6 * Mat3::Identity(), {0.3, 0, 0.8}));
   for (const double filling : {0.5, 1.0, 3.0}) { // lighter and heavier than the material
-    expectGradientsMatch(*makeStandEmptyAndFilledGoal(square(0.3), outer, filling, kPublished, 1.0),
+    expectGradientsMatch(*makeStandEmptyAndFilledGoal(square(0.3), outer, filling, kPublished),
                          outer - cavity);
   }
 }
@@ -321,44 +362,46 @@ TEST(StandEmptyAndFilledGoal, IsTheSumOfStandOverBothBodies) {
   const Moments outer = momentsOf(transformed(box({1, 1, 2}, 1), Mat3::Identity(), {0, 0, 1}));
   const Moments cavity =
       momentsOf(transformed(box({0.5, 0.6, 0.7}, 1), Mat3::Identity(), {0.2, 0, 1.5}));
-  const auto stand = makeStandGoal(square(1.0), kPublished, 1.0);
+  const auto stand = makeStandGoal(square(1.0), kPublished);
   const double filling = 0.7;
-  const auto goal = makeStandEmptyAndFilledGoal(square(1.0), outer, filling, kPublished, 1.0);
+  const auto goal = makeStandEmptyAndFilledGoal(square(1.0), outer, filling, kPublished);
   const Moments empty = outer - cavity;
   const Moments full = outer - cavity + filling * cavity;
   EXPECT_NEAR(goal->objective(empty).value,
               stand->objective(empty).value + stand->objective(full).value, 1e-12);
-  const Report report = described(*goal, empty);
+  const auto verdict = makeStandEmptyAndFilledVerdict(square(1.0), outer, filling, 1.0);
+  const auto standing = makeStandVerdict(square(1.0), 1.0);
+  const Report report = described(*verdict, empty);
   EXPECT_NEAR(number(report, "tip_angle_filled_after"),
-              number(described(*stand, full), "tip_angle_after"), 1e-9);
+              number(described(*standing, full), "tip_angle_after"), 1e-9);
   EXPECT_NEAR(number(report, "tip_angle_empty_after"),
-              number(described(*stand, empty), "tip_angle_after"), 1e-9);
+              number(described(*standing, empty), "tip_angle_after"), 1e-9);
 }
 
 TEST(StandEmptyAndFilledGoal, NeedsBothStates) {
   // Empty the centre is above the foot; the filling pulls it over.
   const Moments outer = bodyAt({0.4, 0, 1.0}, 1.0);
   const Moments empty = bodyAt({0.1, 0, 1.0}, 0.5);
-  EXPECT_TRUE(makeStandGoal(square(0.5), kPublished, 1.0)->isReached(empty));
-  const auto goal = makeStandEmptyAndFilledGoal(square(0.5), outer, 1.0, kPublished, 1.0);
-  EXPECT_FALSE(goal->isReached(empty));
-  EXPECT_NE(goal->worstViolation(empty).find("filled"), std::string::npos);
+  EXPECT_TRUE(makeStandVerdict(square(0.5), 1.0)->isReached(empty));
+  const auto verdict = makeStandEmptyAndFilledVerdict(square(0.5), outer, 1.0, 1.0);
+  EXPECT_FALSE(verdict->isReached(empty));
+  EXPECT_NE(verdict->worstViolation(empty).find("filled"), std::string::npos);
 }
 
 TEST(RollUprightGoal, CountsTheRestingFaces) {
   // A tumbler with its centre of mass above and below the centre of its round foot.
   const TriangleMesh tumbler = transformed(capsule(0.3, 0.3, 160), Mat3::Identity(), {0, 0, 0.45});
-  const auto goal = makeRollUprightGoal({}, tumbler.vertices, kPublished, 1.0);
-  EXPECT_TRUE(goal->isReached(bodyAt({0, 0, 0.2})));
-  EXPECT_FALSE(goal->isReached(bodyAt({0, 0, 0.45})));
-  EXPECT_EQ(std::get<int>(described(*goal, bodyAt({0, 0, 0.2})).at("resting_faces_after")), 1);
-  expectGradientsMatch(*goal, bodyAt({0.01, 0.02, 0.2}));
+  const auto verdict = makeRollUprightVerdict({}, tumbler.vertices, 1.0);
+  EXPECT_TRUE(verdict->isReached(bodyAt({0, 0, 0.2})));
+  EXPECT_FALSE(verdict->isReached(bodyAt({0, 0, 0.45})));
+  EXPECT_EQ(std::get<int>(described(*verdict, bodyAt({0, 0, 0.2})).at("resting_faces_after")), 1);
+  expectGradientsMatch(*makeRollUprightGoal({}, kPublished), bodyAt({0.01, 0.02, 0.2}));
 }
 
 TEST(FloatGoal, HasTheGradientsOfItsValues) {
   const TriangleMesh hull = transformed(blob(5), someRotation(), {0.2, -0.1, 1.2});
   for (const double level : {0.3, 1.0}) {
-    expectGradientsMatch(*makeFloatGoal(hull.vertices, hull.faces, level, 0.8, kPublished, 1.0),
+    expectGradientsMatch(*makeFloatGoal(hull.vertices, hull.faces, level, 0.8, kPublished),
                          0.5 * momentsOf(hull));
   }
 }
@@ -372,11 +415,12 @@ TEST(FloatGoal, HoldsForABoxOfTheRightDensity) {
   // A homogeneous box of density s floats at the share s of its height; BM = b²/(12 sh).
   const TriangleMesh b = groundedBox();
   for (const double s : {0.3, 0.6}) {
-    const auto goal = makeFloatGoal(b.vertices, b.faces, s, 1.0, kPublished, 100.0);
+    const auto goal = makeFloatGoal(b.vertices, b.faces, s, 1.0, kPublished);
+    const auto verdict = makeFloatVerdict(b.vertices, b.faces, s, 1.0, 100.0);
     const Moments m = s * momentsOf(b);
     EXPECT_LT(largestViolation(*goal, m), 1e-12);
-    EXPECT_TRUE(goal->isReached(m));
-    const Report report = described(*goal, m);
+    EXPECT_TRUE(verdict->isReached(m));
+    const Report report = described(*verdict, m);
     EXPECT_NEAR(number(report, "draught_after"), 50 * s, 1e-9);
     EXPECT_NEAR(number(report, "heel_angle_after"), 0, 1e-6);
     EXPECT_NEAR(number(report, "metacentric_height_after"),
@@ -386,29 +430,44 @@ TEST(FloatGoal, HoldsForABoxOfTheRightDensity) {
     EXPECT_NEAR(number(report, "reserve_buoyancy_after"), 1 - s, 1e-12);
     // Heavier, aside, or top-heavy beyond the metacentre it fails.
     EXPECT_NEAR(goal->equalities(1.1 * m).values[0], 0.1 * s, 1e-12);
-    EXPECT_FALSE(goal->isReached(1.1 * m));
-    EXPECT_FALSE(goal->isReached(translated(m, {0.05, 0, 0})));
+    EXPECT_FALSE(verdict->isReached(1.1 * m));
+    EXPECT_FALSE(verdict->isReached(translated(m, {0.05, 0, 0})));
     EXPECT_GT(goal->inequalities(translated(m, {0, 0, 0.5})).values[0], 0.0);
-    EXPECT_FALSE(goal->isReached(translated(m, {0, 0, 0.5})));
+    EXPECT_FALSE(verdict->isReached(translated(m, {0, 0, 0.5})));
   }
 }
 
 TEST(FloatGoal, UnderWaterNeedsNeutralWeightAndALowCentre) {
   const TriangleMesh ball = transformed(sphere(8), Mat3::Identity(), {0, 0, 1});
-  const auto goal = makeFloatGoal(ball.vertices, ball.faces, 1.0, 0.8, kPublished, 1.0);
+  const auto goal = makeFloatGoal(ball.vertices, ball.faces, 1.0, 0.8, kPublished);
+  const auto verdict = makeFloatVerdict(ball.vertices, ball.faces, 1.0, 0.8, 1.0);
   const double neutral = 0.8 * momentsOf(ball)[0];
   const double middle = momentsOf(ball)[3] / momentsOf(ball)[0];
-  EXPECT_TRUE(goal->isReached(bodyAt({0, 0, middle - 0.1}, neutral)));
+  EXPECT_TRUE(verdict->isReached(bodyAt({0, 0, middle - 0.1}, neutral)));
   EXPECT_LT(largestViolation(*goal, bodyAt({0, 0, middle - 0.1}, neutral)), 1e-9);
-  EXPECT_FALSE(goal->isReached(bodyAt({0, 0, middle + 0.1}, neutral)));
+  EXPECT_FALSE(verdict->isReached(bodyAt({0, 0, middle + 0.1}, neutral)));
   EXPECT_GT(largestViolation(*goal, bodyAt({0, 0, middle + 0.1}, neutral)), 0.05);
-  EXPECT_FALSE(goal->isReached(bodyAt({0, 0, middle - 0.1}, 1.01 * neutral)));
-  EXPECT_FALSE(goal->isReached(bodyAt({0, 0, middle - 0.1}, 0.99 * neutral)));
+  EXPECT_FALSE(verdict->isReached(bodyAt({0, 0, middle - 0.1}, 1.01 * neutral)));
+  EXPECT_FALSE(verdict->isReached(bodyAt({0, 0, middle - 0.1}, 0.99 * neutral)));
+}
+
+TEST(FloatGoal, RefusesAWaterlineBelowWhichThereIsNothing) {
+  const TriangleMesh b = groundedBox();
+  for (const double level : {1e-30, 1e-8}) {
+    try {
+      makeFloatGoal(b.vertices, b.faces, level, 1.0, kPublished);
+      FAIL() << "a body cannot float " << level << " of its height deep";
+    } catch (const InvalidInput& e) {
+      EXPECT_NE(std::string(e.what()).find("raise water_level"), std::string::npos);
+    }
+  }
+  EXPECT_TRUE(std::isfinite(largestViolation(
+      *makeFloatGoal(b.vertices, b.faces, 1e-5, 1.0, kPublished), 0.3 * momentsOf(b))));
 }
 
 TEST(HangGoal, HasTheGradientsOfItsValues) {
   const Moments m = momentsOf(transformed(blob(5), someRotation(), {0.2, -0.1, 0.7}));
-  expectGradientsMatch(*makeHangGoal({0.1, 0.2, 2.0}, kPublished, 1.0), m);
+  expectGradientsMatch(*makeHangGoal({0.1, 0.2, 2.0}, kPublished), m);
 }
 
 TEST(HangGoal, FindsTheAngleOfAnLShape) {
@@ -417,41 +476,44 @@ TEST(HangGoal, FindsTheAngleOfAnLShape) {
   // atan(1.25 / (2 − 0.75)) = 45°.
   const TriangleMesh cells = polycube({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 0, 1}}, 2);
   const Moments m = translated(momentsOf(cells), {0, -0.5, 0});
-  const auto goal = makeHangGoal({0, 0, 2}, kPublished, 10.0);
-  const Report report = described(*goal, m);
+  const auto goal = makeHangGoal({0, 0, 2}, kPublished);
+  const auto verdict = makeHangVerdict({0, 0, 2}, 10.0);
+  const Report report = described(*verdict, m);
   EXPECT_NEAR(number(report, "hanging_angle_after"), 45.0, 1e-9);
   EXPECT_NEAR(number(report, "hanging_depth_after"), 12.5, 1e-9);
-  EXPECT_FALSE(goal->isReached(m));
+  EXPECT_FALSE(verdict->isReached(m));
   EXPECT_NEAR(largestViolation(*goal, m), 1.25, 1e-12);
-  const auto above = makeHangGoal({1.25, 0, 2}, kPublished, 10.0);
-  EXPECT_TRUE(above->isReached(m));
-  EXPECT_LT(largestViolation(*above, m), 1e-12);
+  EXPECT_TRUE(makeHangVerdict({1.25, 0, 2}, 10.0)->isReached(m));
+  EXPECT_LT(largestViolation(*makeHangGoal({1.25, 0, 2}, kPublished), m), 1e-12);
 }
 
 TEST(HangGoal, IsNotReachedWithTheCentreAboveThePoint) {
-  const auto goal = makeHangGoal({0, 0, 0.5}, kPublished, 1.0);
-  EXPECT_FALSE(goal->isReached(bodyAt({0, 0, 0.6})));
-  EXPECT_NEAR(number(described(*goal, bodyAt({0, 0, 0.6})), "hanging_angle_after"), 180, 1e-6);
+  const auto goal = makeHangGoal({0, 0, 0.5}, kPublished);
+  const auto verdict = makeHangVerdict({0, 0, 0.5}, 1.0);
+  EXPECT_FALSE(verdict->isReached(bodyAt({0, 0, 0.6})));
+  EXPECT_NEAR(number(described(*verdict, bodyAt({0, 0, 0.6})), "hanging_angle_after"), 180, 1e-6);
   EXPECT_GT(largestViolation(*goal, bodyAt({0, 0, 0.6})), 0.1);
 }
 
 TEST(MassGoal, HasTheGradientsOfItsValues) {
   const Moments m = momentsOf(blob(5));
-  expectGradientsMatch(*makeMassGoal(m[0], 0.4 * m[0], kPublished, 1.0), m);
-  expectGradientsMatch(*makeMassGoal(m[0], std::nullopt, kPublished, 1.0), m);
+  expectGradientsMatch(*makeMassGoal(m[0], 0.4 * m[0], kPublished), m);
+  expectGradientsMatch(*makeMassGoal(m[0], std::nullopt, kPublished), m);
 }
 
 TEST(MassGoal, MeasuresInGrams) {
-  const auto goal = makeMassGoal(2.0, 1.0, kPublished, 30.0);
+  const auto goal = makeMassGoal(2.0, 1.0, kPublished);
+  const auto verdict = makeMassVerdict(1.0, 30.0);
   EXPECT_NEAR(goal->objective(bodyAt({0, 0, 0}, 1.5)).value, 0.0625, 1e-12);
-  EXPECT_NEAR(number(described(*goal, bodyAt({0, 0, 0}, 1.5)), "mass_error_after"), 15.0, 1e-9);
-  EXPECT_FALSE(goal->isReached(bodyAt({0, 0, 0}, 1.5)));
-  EXPECT_TRUE(goal->isReached(bodyAt({0, 0, 0}, 1.0)));
-  EXPECT_NE(goal->worstViolation(bodyAt({0, 0, 0}, 1.5)).find("15 g too large"), std::string::npos);
+  EXPECT_NEAR(number(described(*verdict, bodyAt({0, 0, 0}, 1.5)), "mass_error_after"), 15.0, 1e-9);
+  EXPECT_FALSE(verdict->isReached(bodyAt({0, 0, 0}, 1.5)));
+  EXPECT_TRUE(verdict->isReached(bodyAt({0, 0, 0}, 1.0)));
+  EXPECT_NE(verdict->worstViolation(bodyAt({0, 0, 0}, 1.5)).find("15 g too large"),
+            std::string::npos);
 }
 
 TEST(MassGoal, WithoutATargetPrefersTheLighterBody) {
-  const auto goal = makeMassGoal(2.0, std::nullopt, kPublished, 1.0);
+  const auto goal = makeMassGoal(2.0, std::nullopt, kPublished);
   EXPECT_EQ(largestViolation(*goal, bodyAt({0, 0, 0}, 1.5)), 0.0);
   EXPECT_LT(goal->objective(bodyAt({0, 0, 0}, 0.5)).value,
             goal->objective(bodyAt({0, 0, 0}, 1.5)).value);

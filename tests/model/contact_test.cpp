@@ -1,6 +1,7 @@
 // Contact areas and tipping angles against geometry that is known without them.
 #include "core/model/contact.h"
 
+#include "core/base/angles.h"
 #include "shapes.h"
 
 #include <Eigen/Geometry>
@@ -12,9 +13,6 @@
 
 namespace massprops::testing {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kDegrees = 180.0 / kPi;
 
 ContactArea square(double side) {
   const double h = side / 2;
@@ -86,6 +84,18 @@ TEST(TippingAngle, IsTheLeastOverAllDirections) {
   }
 }
 
+TEST(SignedDistance, IsThatFromTheNearestPointOfTheBorder) {
+  EXPECT_NEAR(signedDistance(square(2.0), {0.7, 0.2}), 0.3, 1e-15);
+  EXPECT_NEAR(signedDistance(square(2.0), {1.5, 0.2}), -0.5, 1e-15);
+  EXPECT_NEAR(signedDistance(square(2.0), {4.0, -5.0}), -5.0, 1e-15); // beyond a corner: 3, 4, 5
+  // Along the normal of a point of the ellipse, which then is the nearest.
+  const double t = 0.7;
+  const Vec2 p(3 * std::cos(t), std::sin(t));
+  const Vec2 normal = Vec2(std::cos(t) / 3, std::sin(t)).normalized();
+  EXPECT_NEAR(signedDistance(ellipse(3.0, 1.0), p + 2.0 * normal), -2.0, 1e-9);
+  EXPECT_NEAR(signedDistance(ellipse(3.0, 1.0), p - 0.2 * normal), 0.2, 1e-9);
+}
+
 TEST(TippingAngle, DoesNotDependOnTheUnit) {
   const Vec3 c(0.1, -0.2, 0.5);
   for (const ContactArea& area : {square(0.7), ellipse(0.5, 0.2)}) {
@@ -155,6 +165,30 @@ TEST(GroundContact, MovesAndScalesWithTheModel) {
   EXPECT_LT((after.centre - 1e3 * before.centre - Vec3(40, 50, 60)).norm(), 1e-8);
   ASSERT_EQ(after.area.polygon.size(), before.area.polygon.size());
   EXPECT_NEAR(extent(after.area, Vec2(1, 0)), 1e3 * extent(before.area, Vec2(1, 0)), 1e-8);
+}
+
+TEST(GroundContact, IsFoundFarFromTheOrigin) {
+  // A layer matrix moves the floats of a file by numbers of double precision.
+  const Vec3 shift(5e6, -5e6, 5e6);
+  for (const double size : {1e-2, 1.0, 1e2}) {
+    // A shaft on a foot of a twentieth of its height, and on a round one of many corners.
+    for (const TriangleMesh& mesh :
+         {box({0.05, 0.05, 1}, 2),
+          transformed(ellipsoid({0.05, 0.05, 1}, 16), Mat3::Identity(), {0, 0, 0.5})}) {
+      Points here = size * mesh.vertices;
+      here.col(2) = here.col(2).cwiseMax(-0.4 * size); // cut flat
+      here = here.cast<float>().cast<double>();
+      const GroundContact near = groundContact(here, {});
+      const GroundContact far = groundContact(here.rowwise() + shift.transpose(), {});
+      ASSERT_GE(near.area.polygon.size(), 4U);
+      ASSERT_GE(far.area.polygon.size(), 4U) << "of size " << size;
+      // Two roundings of coordinates as large as the shift.
+      EXPECT_LT((far.centre - shift - near.centre).norm(), 4e-9);
+      for (const Vec2& u : {Vec2(1, 0), Vec2(0, 1), Vec2(0.6, -0.8)}) {
+        EXPECT_NEAR(extent(far.area, u), extent(near.area, u), 4e-9);
+      }
+    }
+  }
 }
 
 } // namespace

@@ -1,6 +1,8 @@
 // The best that any cavity could do, against closed forms and brute force.
 #include "core/optimum/optimal_bound.h"
 
+#include "core/goals/spin.h"
+#include "core/goals/stand.h"
 #include "core/model/posed_model.h"
 #include "core/model/solid.h"
 #include "core/pipeline.h"
@@ -98,7 +100,7 @@ TEST(OptimalBound, OfAStandingBoxIsHollowAboveItsCentreOfMass) {
       },
       wall, top);
   const Moments solid = moments(outer.vertices, outer.faces);
-  const auto goal = makeStandGoal(square(side), {}, 1.0);
+  const auto goal = makeStandGoal(square(side), {});
   const OptimalBound limit =
       optimalBound(*goal, {}, solid, 0.0, admissibleCells(treeOf(outer), wall));
   const double gain = height / 2 - expected;
@@ -126,7 +128,7 @@ TEST(OptimalBound, OfASpinningBallIsTwoConesAlongTheAxis) {
       0.0, kPi / 2);
   Weights inertiaOnly;
   inertiaOnly.centerOfMass = 0.0;
-  const auto goal = makeSpinGoal(solid, inertiaOnly, 1.0);
+  const auto goal = makeSpinGoal(solid, inertiaOnly);
   const OptimalBound limit =
       optimalBound(*goal, inertiaOnly, solid, 0.0, admissibleCells(treeOf(outer), wall));
   const double gain = 2.0 - expected;
@@ -138,7 +140,7 @@ TEST(OptimalBound, OfAHeavyFillingLiesBelow) {
   const double wall = 0.05;
   const TriangleMesh outer = transformed(box({1, 1, 2}, 4), Mat3::Identity(), Vec3(0, 0, 1));
   const Moments solid = moments(outer.vertices, outer.faces);
-  const auto goal = makeStandGoal(square(1.0), {}, 1.0);
+  const auto goal = makeStandGoal(square(1.0), {});
   const double filling = 7.0;
   // The slab from the lower wall up to h, six times as heavy as before on top.
   const double A = std::pow(1 - 2 * wall, 2);
@@ -229,7 +231,7 @@ TEST_P(SampleLimit, IsWhatBruteForceFindsOnVoxels) {
   EXPECT_NEAR(region[0], voxels[0], 0.02 * voxels[0]);
   for (int k = 1; k < 10; ++k) EXPECT_NEAR(region[k], voxels[k], 0.01 * voxels[0]);
 
-  const auto goal = makeStandGoal(posed.contact, {}, posed.frame.length);
+  const auto goal = makeStandGoal(posed.contact, {});
   const Moments whole = moments(posed.vertices, posed.faces);
   const double brute = bestHalfSpace(
       [&](const Moments& mass) {
@@ -282,7 +284,7 @@ TEST_P(BestVerdict, IsTheBestTippingAngleOfAllHalfSpaces) {
     const auto tilt = [&](const Moments& mass) {
       return tippingAngle(area, Vec3(mass.segment<3>(1) / mass[0]));
     };
-    const auto goal = makeStandGoal(area, {}, posed.frame.length);
+    const auto goal = makeStandGoal(area, {});
     const OptimalBound limit = optimalBound(*goal, {}, whole, 0.0, cells);
     ASSERT_TRUE(limit.bestVerdict);
     const double brute =

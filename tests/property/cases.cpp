@@ -1,5 +1,6 @@
 #include "property/cases.h"
 
+#include "core/goals/registry.h"
 #include "judge/checks.h"
 #include "property/mesher.h"
 #include "shapes.h"
@@ -476,7 +477,8 @@ PropertyCase makeCase(std::uint32_t seed, int number) {
   }
 
   // Pose: as made, or turned and perhaps flattened where it stands.
-  c.options.goal = static_cast<GoalKind>(chance.integer(0, 7));
+  c.options.goal =
+      static_cast<GoalKind>(chance.integer(0, static_cast<int>(goalRegistry().size()) - 1));
   if (!cutLimbs && !chance.oneIn(3)) {
     body = transformed(body, chance.turn());
     text << "turned ";

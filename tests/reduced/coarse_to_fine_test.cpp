@@ -1,6 +1,8 @@
 // Beginning on a coarse stand-in leads to a minimum of the cavity itself.
 #include "core/reduced/coarse_to_fine.h"
 
+#include "core/goals/spin.h"
+#include "core/goals/stand.h"
 #include "core/physics/moments.h"
 #include "core/reduced/laplacian.h"
 #include "shapes.h"
@@ -13,7 +15,6 @@ namespace massprops::testing {
 namespace {
 
 constexpr int kBasis = 12;
-constexpr double kGoalWeight = 1.0;
 
 /// A lump of a few thousand vertices that stands on the ground z = 0, its basis on a proxy.
 struct Lump {
@@ -59,9 +60,8 @@ TEST_P(CoarseToFine, ReachesTheMinimumOfTheCavityItself) {
   weights.smoothness = 0.0;
   const auto goal =
       GetParam() == GoalKind::Spin
-          ? makeSpinGoal(model.solidMoments, weights, kGoalWeight)
-          : makeStandGoal({{{-0.1, -0.1}, {0.02, -0.1}, {0.02, 0.1}, {-0.1, 0.1}}, {}}, weights,
-                          kGoalWeight);
+          ? makeSpinGoal(model.solidMoments, weights)
+          : makeStandGoal({{{-0.1, -0.1}, {0.02, -0.1}, {0.02, 0.1}, {-0.1, 0.1}}, {}}, weights);
   const Vector start = coefficientsFor(model, 0.5 * (model.inner.lower + model.inner.upper), {});
   const MinimizeOptions options;
   const auto exact = [&](const Vector& x) { return evaluate(model, *goal, weights, x); };

@@ -1,5 +1,7 @@
 // What the guarantee costs: the delivered cavity against an optimum that keeps the wall at its
 // vertices only and may cross itself.
+#include "core/goals/spin.h"
+#include "core/goals/stand.h"
 #include "core/model/posed_model.h"
 #include "core/pipeline.h"
 #include "core/reduced/cavity_search.h"
@@ -48,8 +50,8 @@ double unguardedOptimum(const TriangleMesh& mesh, const Options& options) {
   model.innerFaces = posed.faces;
   model.solidMoments = solid;
   const std::unique_ptr<Goal> goal = options.goal == GoalKind::Stand
-                                         ? makeStandGoal(posed.contact, options.weights, 1.0)
-                                         : makeSpinGoal(solid, options.weights, 1.0);
+                                         ? makeStandGoal(posed.contact, options.weights)
+                                         : makeSpinGoal(solid, options.weights);
   MinimizeOptions patient;
   patient.maxEvaluations = 400;
   patient.objectiveTolerance = 1e-8;

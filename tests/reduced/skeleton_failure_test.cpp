@@ -1,4 +1,5 @@
 // Where the mean curvature flow fails, its bound stops it and the filter goes on without it.
+#include "core/goals/spin.h"
 #include "core/model/posed_model.h"
 #include "core/pipeline.h"
 #include "core/reduced/cavity_search.h"
@@ -69,7 +70,7 @@ TEST(SkeletonFailure, StillGivesACavityThatKeepsTheWall) {
   const OffsetField field =
       offsetField(posed.vertices, posed.faces, skeleton.points, L, area, 0.02);
   const Moments solid = moments(posed.vertices, posed.faces);
-  const std::unique_ptr<Goal> goal = makeSpinGoal(solid, options.weights, posed.frame.length);
+  const std::unique_ptr<Goal> goal = makeSpinGoal(solid, options.weights);
   CavityTask task{surface, *goal, {}, options.weights};
   task.model.surface =
       std::make_shared<MovingSurface>(MovingSurface{posed.vertices, posed.faces, mass, basis});

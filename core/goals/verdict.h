@@ -1,0 +1,38 @@
+// What the user gets to know about a body: whether it does what the goal asks for, in numbers,
+// words and a drawing.
+#pragma once
+
+#include "core/base/report.h"
+#include "core/mesh/annotations.h"
+#include "core/physics/mass_properties.h"
+
+#include <string>
+
+namespace massprops {
+
+/// Sees a body as its goal does (goal.h): mass moments in the working frame, density 1.
+class Verdict {
+public:
+  virtual ~Verdict() = default;
+
+  /// Whether the body does what the goal asks for, constraint margins aside.
+  virtual bool isReached(const Moments& massMoments) const = 0;
+  /// The constraint that is violated most, as a clause and in the model's units; of use only when
+  /// `largestViolation` of the goal is not 0.
+  virtual std::string worstViolation(const Moments& massMoments) const = 0;
+  /// What of the verdict is missed, as a clause, by a body that keeps all constraints; of use only
+  /// when that is not `isReached`. Where the constraints are all that the verdict asks for, it is
+  /// `worstViolation`.
+  virtual std::string whatIsMissed(const Moments& massMoments) const;
+  /// Adds the goal's own keys with `suffix` ("before", "after") to the report.
+  virtual void describe(const Moments& massMoments, const std::string& suffix,
+                        Report& report) const = 0;
+  /// What the best of all bodies reaches, in words, when no body holds all constraints.
+  virtual std::string bestInWords(const Moments& massMoments) const;
+  /// Draws, in the working frame, what the verdict goes by on the solid body `before` and on the
+  /// answer `after`, and names it in plain words; nothing but "" where the numbers say it all.
+  virtual std::string draw(const Moments& before, const Moments& after,
+                           Annotations& annotations) const;
+};
+
+} // namespace massprops
