@@ -3,8 +3,11 @@
 #include "core/answer/hollowing_report.h"
 #include "core/base/parallel.h"
 #include "core/base/stopwatch.h"
+#include "core/base/tolerances.h"
 #include "core/mesh/components.h"
 #include "core/mesh/decimation.h"
+#include "core/mesh/interpolation.h"
+#include "core/mesh/signed_volume.h"
 #include "core/model/frame.h"
 #include "core/model/posed_model.h"
 #include "core/model/solid.h"
@@ -30,14 +33,14 @@ constexpr double kFarFromLimit = 0.075;
 
 /// What moves inwards is as fine as a cavity has to be: on finer ones, the objective does not
 /// improve by more than the one or two per cent that it scatters by. In working lengths.
-constexpr Coarseness kCage{12000, 3000, 1.5e-4};
+constexpr DecimationTarget kCage{12000, 3000, 1.5e-4};
 
 /// Skeleton and basis are smooth: their proxy leads to cavities as good as the whole surface does
 /// (benchmarks/results.md).
-constexpr Coarseness kProxy{2400, 600, 3e-4};
+constexpr DecimationTarget kProxy{2400, 600, 3e-4};
 
 /// A function of the basis needs a few vertices to have a shape.
-Coarseness carrying(int basisSize, const Coarseness& wanted) {
+DecimationTarget carrying(int basisSize, const DecimationTarget& wanted) {
   constexpr Eigen::Index kVerticesAFunction = 4;
   const Eigen::Index needed = kVerticesAFunction * basisSize;
   return {std::max(wanted.most, needed), std::max(wanted.least, needed), wanted.distance};
@@ -70,9 +73,9 @@ Schedule scheduleFor(Eigen::Index vertexCount, int basisSize, bool isCopied) {
 
 /// What moves inwards, and the smooth functions that move it, which live on a still coarser copy.
 struct CoarseSurface {
-  CoarseCopy cage;
+  DecimatedMesh cage;
   Vector mass; ///< of the cage, lumped, total 1
-  Proxy proxy;
+  DecimatedMesh proxy;
   Interpolation interpolation; ///< of the cage's vertices by the proxy's
   SparseMatrix laplacian;      ///< of the proxy
   Vector area;                 ///< that the proxy's vertices stand for on the cage
@@ -81,13 +84,13 @@ struct CoarseSurface {
 };
 
 /// `beside`: work for the core that the skeleton leaves free.
-CoarseSurface coarseSurface(const PosedModel& posed, const Coarseness& forCage,
-                            const Coarseness& forProxy, int basisSize,
+CoarseSurface coarseSurface(const PosedModel& posed, const DecimationTarget& forCage,
+                            const DecimationTarget& forProxy, int basisSize,
                             const std::function<void()>& tellCopied,
                             const std::function<void()>& beside, Stages& stages) {
   const Stopwatch copying;
-  CoarseCopy cage = coarseCopy(posed.vertices, posed.faces, forCage);
-  Proxy proxy = makeProxy(cage.mesh.vertices, cage.mesh.faces, forProxy);
+  DecimatedMesh cage = decimated(posed.vertices, posed.faces, forCage);
+  DecimatedMesh proxy = decimated(cage.mesh.vertices, cage.mesh.faces, forProxy);
   stages.secondsCopy = copying.seconds();
   tellCopied();
   const Vector cageArea = vertexLumpedMass(cage.mesh.vertices, cage.mesh.faces);
@@ -119,10 +122,9 @@ CoarseSurface coarseSurface(const PosedModel& posed, const Coarseness& forCage,
 
 /// The outer surface keeps the point that the body hangs from.
 void holdTop(const Points& vertices, OffsetBounds& bounds) {
-  constexpr double kTop = 1e-4; // as at the ground contacts
   const double top = vertices.col(2).maxCoeff();
   for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
-    if (vertices(v, 2) >= top - kTop) bounds.lower[v] = bounds.upper[v] = 0.0;
+    if (vertices(v, 2) >= top - kContactHeight) bounds.lower[v] = bounds.upper[v] = 0.0;
   }
 }
 
@@ -166,7 +168,7 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
 
   tell(0, "Checking the model");
   const Solid solid =
-      makeSolid(model, options.openSurface, rotationToUp(options.upAxis), CrossingCheck::Later);
+      makeSolid(model, options.openSurface, rotationToUp(options.upAxis));
   requireSensible(options, solid.vertices().rows(), solid.diagonal());
   const PosedModel posed = makePosedModel(solid, options);
   if (posed.open) requireSensibleForShell(options);
@@ -180,7 +182,7 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
 
   const Moments solidMoments = moments(posed.vertices, posed.faces);
   const std::unique_ptr<Goal> goal = makeGoal(options, posed, posed.vertices);
-  const Coarseness whole{n, n, 0.0};
+  const DecimationTarget whole{n, n, 0.0};
   std::optional<OptimalBound> limit;
   std::optional<CoarseSurface> coarse;
   const auto checkCrossings = [&] {
@@ -303,7 +305,7 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
     Submesh inner = submesh(positions, placed(cavityFaces, places));
     result.inner = std::move(inner.mesh);
     if (result.inner.faces.rows() > 0) {
-      result.inner.faces.col(1).swap(result.inner.faces.col(2));
+      flip(result.inner.faces);
     }
     result.innerWall = placed(cavity.inspection.wall, places)(inner.vertexOf) * posed.frame.length;
     if (task.outer || posed.cavities.faces.rows() > 0) {

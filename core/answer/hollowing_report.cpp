@@ -1,5 +1,7 @@
 #include "core/answer/hollowing_report.h"
 
+#include "core/base/tolerances.h"
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -7,9 +9,6 @@
 
 namespace massprops {
 namespace {
-
-/// Constraints hold when they are violated by no more than this share of the model's size.
-constexpr double kFeasibility = 1e-6;
 
 /// The body that a search ends with, measured on its triangles.
 struct Body {

@@ -1,6 +1,7 @@
 #include "core/answer/picture.h"
 
 #include "core/answer/cutaway.h"
+#include "core/base/angles.h"
 #include "core/mesh/components.h"
 #include "core/model/posed_model.h"
 #include "core/reduced/cavity_search.h"
@@ -11,7 +12,6 @@
 namespace massprops {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 /// Centres of mass nearer to one vertical than this, in diagonals, say nothing about the cut.
 constexpr double kApart = 5e-3;
 

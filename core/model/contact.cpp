@@ -1,5 +1,7 @@
 #include "core/model/contact.h"
 
+#include "core/base/tolerances.h"
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/convex_hull_2.h>
 
@@ -13,7 +15,7 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kContactTolerance = 1e-4;
+constexpr double kContactTolerance = kContactHeight;
 
 double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();

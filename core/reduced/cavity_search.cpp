@@ -2,6 +2,7 @@
 
 #include "core/base/parallel.h"
 #include "core/base/stopwatch.h"
+#include "core/base/tolerances.h"
 #include "core/base/triangle.h"
 #include "core/mesh/lipschitz.h"
 #include "core/mesh/vertex_adjacency.h"
@@ -39,7 +40,6 @@ constexpr int kMostDoublings = 6;
 constexpr double kUnwanted = 0.75;
 constexpr double kUnwantedWidth = 3.0;
 constexpr double kLeastGain = 0.6;
-constexpr double kFeasibility = 1e-6;
 /// Of what a cavity could gain over the solid; below, another start is not worth its time.
 constexpr double kFarGap = 0.05;
 /// How far the cavity retreats from a cap that folds, in walls.
@@ -208,14 +208,14 @@ bool closesOpening(const CavityTask& task, const std::vector<char>& solid) {
 }
 
 Inspection inspectResult(const CavityTask& task, const CavityResult& result, LookFirst first,
-                         ClearanceMemory& memory) {
+                         ClearanceQuery& clearance) {
   const Faces& cavity = result.cavity.faces;
   if (task.open != nullptr) return inspectShell(result.inner, cavity, task.surface, task.wall);
   if (task.outer) {
     const TriangleTree moved(result.outer, task.surface.faces(), TriangleTree::Order::Spatial);
     return inspect(result.inner, cavity, moved, task.wall, true, first);
   }
-  return inspect(result.inner, cavity, task.surface, task.wall, false, first, &memory);
+  return inspect(result.inner, cavity, task.surface, task.wall, false, first, &clearance);
 }
 
 /// `freedom`: how much of the range between least and greatest offset may be used, 0…1; at 0 there
@@ -257,7 +257,7 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
   bool fillUnwanted = freedom > 0.0;
   bool mayTrim = true;
   LookFirst first = LookFirst::ForAll;
-  ClearanceMemory memory;
+  ClearanceQuery clearance(task.surface);
   std::unique_ptr<Goal> movedGoal;
   const Goal* goal = &task.goal;
   for (int round = 0; round < kMostRounds; ++round) {
@@ -338,7 +338,7 @@ CavityResult searchWithin(const CavityTask& task, double freedom,
     if (task.outer) result.outer = task.deliverable(surfaces.outer);
     result.innerOffsets = std::move(surfaces.innerOffsets);
     result.outerOffsets = std::move(surfaces.outerOffsets);
-    result.inspection = inspectResult(task, result, first, memory);
+    result.inspection = inspectResult(task, result, first, clearance);
     // What was all that was wrong mostly is all that is wrong next time.
     const bool isWithoutFolds =
         result.inspection.crossing.empty() && result.inspection.outerCrossing.empty();

@@ -44,7 +44,7 @@ struct CavityTask {
   /// Null: the basis lives on the vertices themselves.
   const Interpolation* interpolation = nullptr;
   /// That the basis lives on; null with the former.
-  const Proxy* proxy = nullptr;
+  const DecimatedMesh* proxy = nullptr;
   /// Null: the surface is closed. Otherwise the outer surface rests, and is what moves inwards.
   const OpenSurface* open = nullptr;
 };

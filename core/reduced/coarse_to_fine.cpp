@@ -30,8 +30,8 @@ Faces clustered(const Faces& faces, const std::vector<int>& vertexFor) {
 
 } // namespace
 
-MinimizeResult minimizeCoarseToFine(const OffsetModel& model, const Proxy& proxy, const Goal& goal,
-                                    const Weights& weights, const Vector& start,
+MinimizeResult minimizeCoarseToFine(const OffsetModel& model, const DecimatedMesh& proxy,
+                                    const Goal& goal, const Weights& weights, const Vector& start,
                                     const MinimizeOptions& options) {
   const Points vertices = rowsOf(model.vertices, proxy.vertexOf);
   const Points directions = rowsOf(model.directions, proxy.vertexOf);

@@ -1,6 +1,7 @@
 // Minimisation that begins on a coarse stand-in for the cavity.
 #pragma once
 
+#include "core/mesh/decimation.h"
 #include "core/reduced/offset_problem.h"
 
 namespace massprops {
@@ -10,8 +11,8 @@ namespace massprops {
 /// evaluations take place there, and a few on the cavity remain. `evaluations`: of both.
 /// `proxy`: of the model's vertices, that the model's basis lives on.
 /// \pre the outer surface rests and is closed; smoothness has no weight
-MinimizeResult minimizeCoarseToFine(const OffsetModel& model, const Proxy& proxy, const Goal& goal,
-                                    const Weights& weights, const Vector& start,
+MinimizeResult minimizeCoarseToFine(const OffsetModel& model, const DecimatedMesh& proxy,
+                                    const Goal& goal, const Weights& weights, const Vector& start,
                                     const MinimizeOptions& options);
 
 } // namespace massprops

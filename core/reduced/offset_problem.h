@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/goals/objective.h"
-#include "core/mesh/decimation.h"
+#include "core/mesh/interpolation.h"
 #include "core/reduced/harmonics.h"
 #include "core/reduced/offset_bounds.h"
 

@@ -3,6 +3,7 @@
 #include "core/goals/goals.h"
 
 #include "shapes.h"
+#include "translated_moments.h"
 
 #include <gtest/gtest.h>
 
