@@ -60,8 +60,8 @@ void momentsWithGradients(benchmark::State& state) {
 
 void basis(benchmark::State& state) {
   const Animal& a = animal(100000);
-  const Proxy proxy =
-      makeProxy(a.posed.vertices, a.posed.faces, {state.range(0), state.range(0), 0.0});
+  const DecimatedMesh proxy =
+      decimated(a.posed.vertices, a.posed.faces, {state.range(0), state.range(0), 0.0});
   const SparseMatrix L = cotanLaplacian(proxy.mesh.vertices, proxy.mesh.faces);
   const Vector area = vertexLumpedMass(proxy.mesh.vertices, proxy.mesh.faces);
   constexpr int kBasisSize = 36;

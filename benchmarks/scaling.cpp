@@ -53,7 +53,7 @@ TriangleMesh refined(const char* sample, int times) {
 
 TriangleMesh dinosaur(Eigen::Index size) {
   const TriangleMesh fine = refined("toy_dinosaur", 1);
-  return coarseCopy(fine.vertices, fine.faces, {size, size, 0.0}).mesh;
+  return decimated(fine.vertices, fine.faces, {size, size, 0.0}).mesh;
 }
 
 /// As a file of floats holds it; in doubles a few faces at the rims of the feet cross.

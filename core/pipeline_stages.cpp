@@ -3,6 +3,7 @@
 #include "core/answer/delivery.h"
 #include "core/answer/hollowing_report.h"
 #include "core/base/parallel.h"
+#include "core/base/tolerances.h"
 #include "core/goals/registry.h"
 #include "core/model/frame.h"
 #include "core/reduced/search_strategy.h"
@@ -43,10 +44,9 @@ OffsetBounds boundsOfOuter(const Preparation& model, const OffsetField& field,
       outerBounds(posed.vertices, field, options.outerLowerBound / posed.frame.length,
                   options.outerUpperBound / posed.frame.length);
   if (options.goal != GoalKind::Hang || posed.pivot) return bounds;
-  constexpr double kTop = 1e-4; // as at the ground contacts
   const double top = posed.vertices.col(2).maxCoeff();
   for (Eigen::Index v = 0; v < posed.vertices.rows(); ++v) {
-    if (posed.vertices(v, 2) >= top - kTop) bounds.lower[v] = bounds.upper[v] = 0.0;
+    if (posed.vertices(v, 2) >= top - kContactHeight) bounds.lower[v] = bounds.upper[v] = 0.0;
   }
   return bounds;
 }
@@ -93,8 +93,7 @@ CavityTask taskAlong(double wantedClearance, const Preparation& model, const Fou
 } // namespace
 
 Preparation::Preparation(const TriangleMesh& model, const Options& options)
-    : solid(makeSolid(model, options.openSurface, rotationToUp(options.upAxis),
-                      CrossingCheck::Later)),
+    : solid(makeSolid(model, options.openSurface, rotationToUp(options.upAxis))),
       posed(pose(solid, options)),
       surface(posed.vertices, posed.open ? posed.open->skin : posed.faces,
               TriangleTree::Order::Spatial),

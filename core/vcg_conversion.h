@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/base/types.h"
+#include "core/mesh/signed_volume.h"
 
 #include <Eigen/Geometry>
 #include <vcg/complex/complex.h>
@@ -19,14 +20,6 @@ using Placement = Eigen::Affine3d;
 inline bool mirrors(const Placement& placement) {
   return placement.linear().determinant() < 0;
 }
-
-namespace detail {
-
-inline void flip(Faces& faces) {
-  faces.col(1).swap(faces.col(2));
-}
-
-} // namespace detail
 
 /// Living vertices and faces of `mesh` in world coordinates, faces outward in the world when they
 /// are outward in the mesh.
@@ -54,7 +47,7 @@ TriangleMesh fromVcg(const VcgMesh& mesh, const Placement& placement) {
     }
     ++faces;
   }
-  if (mirrors(placement)) detail::flip(result.faces);
+  if (mirrors(placement)) flip(result.faces);
   return result;
 }
 
@@ -86,7 +79,7 @@ void toVcg(const TriangleMesh& world, const Placement& placement, VcgMesh& mesh)
   using Scalar = typename VcgMesh::ScalarType;
   const auto vertices = stored<Scalar>(world.vertices, placement);
   Faces faces = world.faces;
-  if (mirrors(placement)) detail::flip(faces);
+  if (mirrors(placement)) flip(faces);
 
   auto vertex =
       vcg::tri::Allocator<VcgMesh>::AddVertices(mesh, static_cast<std::size_t>(vertices.rows()));

@@ -21,7 +21,7 @@ constexpr double kOnPlane = 1e-9;
 
 ColouredMesh cutaway(const TriangleMesh& material, Eigen::Index cavityVertices, const Vec3& point,
                      const Vec3& normal) {
-  Mesh mesh = surfaceMesh(material);
+  auto mesh = surfaceMesh(material.vertices, material.faces);
   mesh.set_recycle_garbage(false); // vertices are known by their numbers
   CGAL::Polygon_mesh_processing::clip(
       mesh,

@@ -1,5 +1,6 @@
 #include "core/answer/hollowing_report.h"
 
+#include "core/base/tolerances.h"
 #include "core/goals/registry.h"
 #include "core/reduced/hollow_body.h"
 
@@ -9,8 +10,6 @@
 
 namespace massprops {
 namespace {
-
-constexpr double kFeasibility = 1e-6;
 
 /// A body in the model's own coordinates and in grams.
 MassProperties inModel(const Moments& massMoments, const Frame& frame, double density) {

@@ -1,6 +1,7 @@
 #include "core/answer/picture.h"
 
 #include "core/answer/cutaway.h"
+#include "core/base/angles.h"
 #include "core/goals/verdict.h"
 #include "core/mesh/components.h"
 #include "core/model/posed_model.h"
@@ -12,7 +13,6 @@
 namespace massprops {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 /// Centres of mass nearer to one vertical than this, in diagonals, say nothing about the cut.
 constexpr double kApart = 5e-3;
 

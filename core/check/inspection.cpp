@@ -48,7 +48,7 @@ std::vector<int> thinnerThan(double wall, const Eigen::Ref<const Vector>& walls)
 } // namespace
 
 Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleTree& outer,
-                   double wall, bool outerMoved, LookFirst first, ClearanceMemory* memory) {
+                   double wall, bool outerMoved, LookFirst first, ClearanceQuery* clearance) {
   Inspection inspection;
   const auto takeFolds = [&] {
     const std::vector<int> folded =
@@ -57,11 +57,12 @@ Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleT
     add(verticesOf(innerFaces, {&folded, &flat}), inspection.crossing);
   };
   const auto takeWall = [&] {
-    Clearance clearance = clearanceOf(inner, innerFaces, outer, wall, memory);
-    add(verticesOf(innerFaces, {&clearance.crossing}), inspection.crossing);
-    inspection.wall = std::move(clearance.distance);
-    inspection.leastWall = clearance.least;
-    inspection.nearestFace = std::move(clearance.nearestFace);
+    ClearanceQuery fresh(outer);
+    Clearance found = (clearance != nullptr ? *clearance : fresh).measure(inner, innerFaces, wall);
+    add(verticesOf(innerFaces, {&found.crossing}), inspection.crossing);
+    inspection.wall = std::move(found.distance);
+    inspection.leastWall = found.least;
+    inspection.nearestFace = std::move(found.nearestFace);
     inspection.thin = thinnerThan(wall, inspection.wall);
   };
   if (first == LookFirst::ForThinWalls) {
@@ -83,7 +84,7 @@ Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleT
   const std::vector<int> depths = nestingDepths(inner, components);
   for (std::size_t c = 0; c < components.size(); ++c) {
     // What crosses the outer surface is told above; else all of a component is inside, or nothing.
-    const bool inside = isInside(inner, components[c], outer);
+    const bool inside = PointInMesh(outer).contains(inner, components[c]);
     const bool outward = signedVolume(inner, components[c]) > 0.0;
     if (inside && outward && depths[c] == 0) continue;
     add(std::vector<int>(components[c].data(), components[c].data() + components[c].size()),
@@ -113,7 +114,7 @@ Inspection inspectShell(const Points& positions, const Faces& cavity, const Tria
   for (int& v : bad) v = v < n ? v : v - static_cast<int>(n);
   add(bad, inspection.crossing);
 
-  Clearance clearance = clearanceOf(positions, withoutStrips(cavity, n), skin, wall);
+  Clearance clearance = ClearanceQuery(skin).measure(positions, withoutStrips(cavity, n), wall);
   inspection.wall = std::move(clearance.distance);
   inspection.wall.tail(n).setZero();
   inspection.leastWall = clearance.least;

@@ -33,11 +33,11 @@ enum class LookFirst { ForAll, ForFolds, ForThinWalls };
 /// Exact predicates for crossings and containment, double precision for distances: surfaces that
 /// are a wall apart do not cross.
 /// `inner`, `innerFaces`: the cavity, outward oriented as a body of its own. `wall`: wanted
-/// distance, same unit. `outerMoved`: whether the outer surface may cross itself. `memory`: null,
-/// or of inspections against the same outer surface.
+/// distance, same unit. `outerMoved`: whether the outer surface may cross itself. `clearance`:
+/// null, or made for `outer`; several inspections with one take less time.
 Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleTree& outer,
                    double wall, bool outerMoved, LookFirst first = LookFirst::ForAll,
-                   ClearanceMemory* memory = nullptr);
+                   ClearanceQuery* clearance = nullptr);
 
 /// An inspection of the shell of an open surface (open_surface.h): skin, offset surface and strips
 /// together are free of crossings and bound the material, and the offset surface, strips apart,

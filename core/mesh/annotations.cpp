@@ -1,11 +1,12 @@
 #include "core/mesh/annotations.h"
 
+#include "core/base/angles.h"
+
 #include <cmath>
 
 namespace massprops {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 /// Of the diagonal.
 constexpr double kBallRadius = 0.015;
 constexpr double kPenRadius = 0.003;

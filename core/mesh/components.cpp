@@ -1,33 +1,28 @@
 #include "core/mesh/components.h"
 
-#include <algorithm>
-#include <numeric>
+#include <boost/pending/disjoint_sets.hpp>
+
+#include <utility>
 
 namespace massprops {
 
 std::vector<int> componentNumbers(Eigen::Index vertexCount, const Faces& faces) {
-  // Sets of vertices, each known by its least member; faces unite them.
-  std::vector<int> parent(static_cast<std::size_t>(vertexCount));
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int v) {
-    auto i = static_cast<std::size_t>(v);
-    while (parent[i] != static_cast<int>(i)) {
-      parent[i] = parent[static_cast<std::size_t>(parent[i])];
-      i = static_cast<std::size_t>(parent[i]);
-    }
-    return static_cast<int>(i);
-  };
+  const auto n = static_cast<std::size_t>(vertexCount);
+  std::vector<int> rank(n);
+  std::vector<int> parent(n);
+  boost::disjoint_sets<int*, int*> sets(rank.data(), parent.data());
+  for (int v = 0; v < static_cast<int>(vertexCount); ++v) sets.make_set(v);
   for (Eigen::Index f = 0; f < faces.rows(); ++f) {
-    const int roots[3] = {root(faces(f, 0)), root(faces(f, 1)), root(faces(f, 2))};
-    const int least = std::min({roots[0], roots[1], roots[2]});
-    for (const int r : roots) parent[static_cast<std::size_t>(r)] = least;
+    sets.union_set(faces(f, 0), faces(f, 1));
+    sets.union_set(faces(f, 0), faces(f, 2));
   }
-  std::vector<int> label(parent.size(), -1);
+  std::vector<int> label(n, -1);
+  std::vector<int> labelOfSet(n, -1);
   int count = 0;
   for (Eigen::Index f = 0; f < faces.rows(); ++f) {
-    int& ofRoot = label[static_cast<std::size_t>(root(faces(f, 0)))];
-    if (ofRoot < 0) ofRoot = count++;
-    for (const int v : faces.row(f)) label[static_cast<std::size_t>(v)] = ofRoot;
+    int& number = labelOfSet[static_cast<std::size_t>(sets.find_set(faces(f, 0)))];
+    if (number < 0) number = count++;
+    for (const int v : faces.row(f)) label[static_cast<std::size_t>(v)] = number;
   }
   return label;
 }
@@ -68,6 +63,30 @@ Submesh submesh(const Points& vertices, const Faces& faces) {
     result.mesh.vertices.row(static_cast<Eigen::Index>(i)) = vertices.row(result.vertexOf[i]);
   }
   result.mesh.faces = faces.unaryExpr([&](int v) { return number[static_cast<std::size_t>(v)]; });
+  return result;
+}
+
+std::vector<Submesh> componentMeshes(const Points& vertices, const Faces& faces) {
+  const std::vector<int> component = componentNumbers(vertices.rows(), faces);
+  Components parts = connectedComponents(vertices.rows(), faces);
+  std::vector<Submesh> result(parts.size());
+  std::vector<int> number(component.size(), -1); // of a vertex in its component
+  for (std::size_t v = 0; v < component.size(); ++v) {
+    if (component[v] < 0) continue;
+    std::vector<int>& vertexOf = result[static_cast<std::size_t>(component[v])].vertexOf;
+    number[v] = static_cast<int>(vertexOf.size());
+    vertexOf.push_back(static_cast<int>(v));
+  }
+  for (std::size_t c = 0; c < parts.size(); ++c) {
+    const std::vector<int>& vertexOf = result[c].vertexOf;
+    Points& points = result[c].mesh.vertices;
+    points.resize(static_cast<Eigen::Index>(vertexOf.size()), 3);
+    for (Eigen::Index i = 0; i < points.rows(); ++i) {
+      points.row(i) = vertices.row(vertexOf[static_cast<std::size_t>(i)]);
+    }
+    result[c].mesh.faces =
+        parts[c].unaryExpr([&](int v) { return number[static_cast<std::size_t>(v)]; });
+  }
   return result;
 }
 

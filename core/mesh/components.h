@@ -17,11 +17,15 @@ std::vector<int> componentNumbers(Eigen::Index vertexCount, const Faces& faces);
 /// The faces of each connected component, in the order of their first face.
 Components connectedComponents(Eigen::Index vertexCount, const Faces& faces);
 
-/// The mesh that `faces` describe, without vertices they do not use; order is kept.
+/// The mesh that some faces describe, without vertices they do not use; order is kept.
 struct Submesh {
   TriangleMesh mesh;
   std::vector<int> vertexOf; ///< for every vertex its number in the whole mesh
 };
 Submesh submesh(const Points& vertices, const Faces& faces);
+
+/// Each connected component as a mesh of its own, in the order of their first face. All together
+/// take time linear in the mesh's size, however many they are.
+std::vector<Submesh> componentMeshes(const Points& vertices, const Faces& faces);
 
 } // namespace massprops

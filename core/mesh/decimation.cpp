@@ -5,6 +5,8 @@
 #include "core/mesh/components.h"
 #include "core/mesh/connectivity.h"
 
+#include <boost/pending/disjoint_sets.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,7 +17,7 @@
 namespace massprops {
 namespace {
 
-/// A proxy that is not smaller by this factor does not pay.
+/// A copy that is not smaller by this factor does not pay.
 constexpr double kWorthwhile = 1.4;
 /// Weight of an edge's length against the distance from the surface, both squared: little, so that
 /// thin limbs keep more vertices than broad flanks.
@@ -25,7 +27,6 @@ constexpr double kLeastTurnCosine = 0.2;
 constexpr double kLeastQuality = 0.25;
 /// No component becomes smaller: its shape would be lost.
 constexpr int kLeastVertices = 64;
-constexpr Eigen::Index kChunk = 4096;
 /// A surface of more vertices is thinned out in two halves at once.
 constexpr Eigen::Index kWorthHalving = 16384;
 
@@ -60,10 +61,10 @@ public:
       : x_(vertices), corner_(faces.data(), faces.data() + faces.size()),
         opposite_(oppositeHalfEdges(vertices.rows(), faces)),
         outgoing_(static_cast<std::size_t>(vertices.rows()), -1),
-        parent_(static_cast<std::size_t>(vertices.rows())),
+        collapsedOnto_(static_cast<std::size_t>(vertices.rows())),
         quadrics_(static_cast<std::size_t>(vertices.rows())),
         component_(componentNumbers(vertices.rows(), faces)) {
-    std::iota(parent_.begin(), parent_.end(), 0);
+    std::iota(collapsedOnto_.begin(), collapsedOnto_.end(), 0);
     for (std::size_t h = 0; h < corner_.size(); ++h)
       outgoing_[at(corner_[h])] = static_cast<int>(h);
     Eigen::Index betweenHalves = 0;
@@ -71,7 +72,7 @@ public:
       if (halfOf(faces(f, 0)) != halfOf(faces(f, 1)) || halfOf(faces(f, 1)) != halfOf(faces(f, 2)))
         ++betweenHalves;
       const Vec3 a = point(faces(f, 0));
-      const Vec3 normal = (point(faces(f, 1)) - a).cross(point(faces(f, 2)) - a);
+      const Vec3 normal = areaNormal(x_, faces, f);
       const double twiceArea = normal.norm();
       if (!(twiceArea > 0.0)) continue;
       for (const int v : faces.row(f)) {
@@ -91,9 +92,9 @@ public:
     areHalvesApart_ = kFew * betweenHalves < faces.rows();
   }
 
-  void reduceTo(const Coarseness& wanted) {
-    reduceTo(wanted.most, std::numeric_limits<double>::infinity());
-    reduceTo(wanted.least, wanted.distance);
+  void reduceTo(const DecimationTarget& target) {
+    reduceTo(target.most, std::numeric_limits<double>::infinity());
+    reduceTo(target.least, target.distance);
   }
 
   /// No vertex goes that is farther than `distance` from the planes of its faces.
@@ -130,8 +131,8 @@ public:
 
   Eigen::Index size() const { return halves_[0].alive + halves_[1].alive; }
 
-  CoarseCopy copy() const {
-    CoarseCopy result;
+  DecimatedMesh copy() const {
+    DecimatedMesh result;
     std::vector<int> number(outgoing_.size(), -1);
     for (std::size_t v = 0; v < outgoing_.size(); ++v) {
       if (outgoing_[v] < 0) continue;
@@ -149,10 +150,9 @@ public:
     }
     result.mesh.faces =
         Eigen::Map<const Faces>(kept.data(), static_cast<Eigen::Index>(kept.size() / 3), 3);
+    result.vertexFor = vertexFor(number);
     return result;
   }
-
-  std::vector<int> vertexFor(const CoarseCopy& copy);
 
 private:
   /// Of the vertices, by their numbers, which are near each other in space where the numbers are.
@@ -248,8 +248,8 @@ private:
       if (b == w || c == w) continue;
       const Vec3 pb = point(b);
       const Vec3 pc = point(c);
-      const Vec3 before = (pb - from).cross(pc - from);
-      const Vec3 after = (pb - target).cross(pc - target);
+      const Vec3 before = areaNormal(from, pb, pc);
+      const Vec3 after = areaNormal(target, pb, pc);
       const double longest = std::max(
           {(pb - target).squaredNorm(), (pc - target).squaredNorm(), (pc - pb).squaredNorm()});
       const double areas = before.norm() * after.norm();
@@ -287,20 +287,30 @@ private:
       for (const int e : {dead, n, p}) corner_[at(e)] = -1;
     }
     outgoing_[at(v)] = -1;
-    parent_[at(v)] = w;
+    collapsedOnto_[at(v)] = w;
     quadrics_[at(w)].add(quadrics_[at(v)]);
   }
 
-  int root(int v) {
-    while (parent_[at(v)] != v) {
-      parent_[at(v)] = parent_[at(parent_[at(v)])];
-      v = parent_[at(v)];
+  /// For every vertex the number of the one that is left of those that it fell together with.
+  std::vector<int> vertexFor(const std::vector<int>& number) const {
+    const std::size_t n = outgoing_.size();
+    std::vector<int> rank(n);
+    std::vector<int> parent(n);
+    boost::disjoint_sets<int*, int*> sets(rank.data(), parent.data());
+    for (int v = 0; v < vertexCount(); ++v) sets.make_set(v);
+    for (int v = 0; v < vertexCount(); ++v) sets.union_set(v, collapsedOnto_[at(v)]);
+    std::vector<int> ofSet(n, -1);
+    for (int v = 0; v < vertexCount(); ++v) {
+      if (number[at(v)] >= 0) ofSet[at(sets.find_set(v))] = number[at(v)];
     }
-    return v;
+    std::vector<int> result(n);
+    for (int v = 0; v < vertexCount(); ++v) result[at(v)] = ofSet[at(sets.find_set(v))];
+    return result;
   }
 
   const Points& x_;
-  std::vector<int> corner_, opposite_, outgoing_, parent_;
+  std::vector<int> corner_, opposite_, outgoing_;
+  std::vector<int> collapsedOnto_; ///< a vertex onto itself while it is there
   std::vector<Quadric> quadrics_;
   std::vector<int> component_;
   std::array<Half, 2> halves_;
@@ -308,168 +318,22 @@ private:
   double mostSquared_ = 0.0;
 };
 
-/// For every vertex of the surface the vertex of the copy that it was collapsed onto.
-std::vector<int> QuadricDecimation::vertexFor(const CoarseCopy& copy) {
-  std::vector<int> number(outgoing_.size(), -1);
-  for (std::size_t i = 0; i < copy.vertexOf.size(); ++i) {
-    number[at(copy.vertexOf[i])] = static_cast<int>(i);
-  }
-  std::vector<int> result(static_cast<std::size_t>(x_.rows()));
-  for (std::size_t v = 0; v < result.size(); ++v) {
-    result[v] = number[at(root(static_cast<int>(v)))];
-  }
-  return result;
-}
-
 bool isMuchLess(Eigen::Index size, const Points& vertices) {
   return static_cast<double>(vertices.rows()) >= kWorthwhile * static_cast<double>(size);
 }
 
-template <int Columns>
-void addTransposed(const Faces& corners, const Points& weights,
-                   const Eigen::Ref<const RowMatrix>& values, const Chunk& chunk, RowMatrix& sum) {
-  using Row = Eigen::Matrix<double, 1, Columns>;
-  for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
-    const Eigen::Map<const Row> value(values.row(v).data(), values.cols());
-    for (int k = 0; k < 3; ++k) {
-      Eigen::Map<Row>(sum.row(corners(v, k)).data(), sum.cols()) += weights(v, k) * value;
-    }
-  }
-}
-
 } // namespace
 
-Interpolation::Interpolation(Faces corners, Points weights, Eigen::Index proxySize)
-    : rows_(corners.rows()), cols_(proxySize), corners_(std::move(corners)),
-      weights_(std::move(weights)) {}
-
-Interpolation Interpolation::identity(Eigen::Index size) {
-  Interpolation result;
-  result.rows_ = size;
-  result.cols_ = size;
-  return result;
-}
-
-Vector Interpolation::operator*(const Vector& values) const {
-  if (isIdentity()) return values;
-  Vector result(rows_);
-  forChunks(rows_, kChunk, [&](const Chunk& chunk) {
-    for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
-      result[v] = weights_(v, 0) * values[corners_(v, 0)] +
-                  weights_(v, 1) * values[corners_(v, 1)] + weights_(v, 2) * values[corners_(v, 2)];
-    }
-  });
-  return result;
-}
-
-Points Interpolation::operator*(const Points& values) const {
-  if (isIdentity()) return values;
-  Points result(rows_, 3);
-  forChunks(rows_, kChunk, [&](const Chunk& chunk) {
-    for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
-      result.row(v) = weights_(v, 0) * values.row(corners_(v, 0)) +
-                      weights_(v, 1) * values.row(corners_(v, 1)) +
-                      weights_(v, 2) * values.row(corners_(v, 2));
-    }
-  });
-  return result;
-}
-
-RowMatrix Interpolation::transposeTimes(const Eigen::Ref<const RowMatrix>& values) const {
-  if (isIdentity()) return values;
-  // One sum a chunk, for the sums of two threads must not depend on who comes first.
-  const Eigen::Index length = std::max<Eigen::Index>(kChunk / 2, chunkCount(rows_, 4));
-  std::vector<RowMatrix> parts(static_cast<std::size_t>(chunkCount(rows_, length)));
-  forChunks(rows_, length, [&](const Chunk& chunk) {
-    RowMatrix& part = parts[static_cast<std::size_t>(chunk.number)];
-    part.setZero(cols_, values.cols());
-    // Rows of known length take half the time.
-    switch (values.cols()) {
-    case 4:
-      addTransposed<4>(corners_, weights_, values, chunk, part);
-      break;
-    case 10:
-      addTransposed<10>(corners_, weights_, values, chunk, part);
-      break;
-    default:
-      addTransposed<Eigen::Dynamic>(corners_, weights_, values, chunk, part);
-    }
-  });
-  for (std::size_t i = 1; i < parts.size(); ++i) parts[0] += parts[i];
-  return std::move(parts[0]);
-}
-
-CoarseCopy coarseCopy(const Points& vertices, const Faces& faces, const Coarseness& wanted) {
-  if (isMuchLess(wanted.least, vertices)) {
+DecimatedMesh decimated(const Points& vertices, const Faces& faces,
+                        const DecimationTarget& target) {
+  if (isMuchLess(target.least, vertices)) {
     QuadricDecimation surface(vertices, faces);
-    surface.reduceTo(wanted);
+    surface.reduceTo(target);
     if (isMuchLess(surface.size(), vertices)) return surface.copy();
   }
-  CoarseCopy copy{{vertices, faces}, {}};
-  copy.vertexOf.resize(static_cast<std::size_t>(vertices.rows()));
-  std::iota(copy.vertexOf.begin(), copy.vertexOf.end(), 0);
-  return copy;
-}
-
-Proxy makeProxy(const Points& vertices, const Faces& faces, const Coarseness& wanted) {
-  if (isMuchLess(wanted.least, vertices)) {
-    QuadricDecimation surface(vertices, faces);
-    surface.reduceTo(wanted);
-    if (isMuchLess(surface.size(), vertices)) {
-      CoarseCopy copy = surface.copy();
-      std::vector<int> vertexFor = surface.vertexFor(copy);
-      return {std::move(copy.mesh), std::move(copy.vertexOf), std::move(vertexFor)};
-    }
-  }
-  return {{vertices, faces}, {}, {}};
-}
-
-Interpolation interpolationFrom(const Proxy& proxy, const Points& vertices) {
-  if (proxy.vertexFor.empty()) return Interpolation::identity(vertices.rows());
-  // A vertex lies near the one that it was collapsed onto: from there over the copy, always to
-  // the nearest face around the corners of the last one.
-  const TriangleMesh& mesh = proxy.mesh;
-  const Eigen::Index vertexCount = vertices.rows();
-  const VertexCorners corners = vertexCorners(mesh.vertices.rows(), mesh.faces);
-  Faces faces(vertexCount, 3);
-  Points weights(vertexCount, 3);
-  forChunks(vertexCount, kChunk, [&](const Chunk& chunk) {
-    std::vector<int> visited;
-    for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
-      visited.clear();
-      const Vec3 p = vertices.row(v).transpose();
-      double best = std::numeric_limits<double>::infinity();
-      int bestFace = -1;
-      Vec3 bestWeights = Vec3::Zero();
-      const auto visit = [&](int around) {
-        if (std::find(visited.begin(), visited.end(), around) != visited.end()) return;
-        visited.push_back(around);
-        for (const int corner : corners.at(around)) {
-          const int f = corner / 3;
-          const Vec3 a = mesh.vertices.row(mesh.faces(f, 0)).transpose();
-          const Vec3 b = mesh.vertices.row(mesh.faces(f, 1)).transpose();
-          const Vec3 c = mesh.vertices.row(mesh.faces(f, 2)).transpose();
-          const Vec3 w = nearestWeights(p, a, b, c);
-          const double distance = (w[0] * a + w[1] * b + w[2] * c - p).squaredNorm();
-          if (distance < best) {
-            best = distance;
-            bestFace = f;
-            bestWeights = w;
-          }
-        }
-      };
-      visit(proxy.vertexFor[static_cast<std::size_t>(v)]);
-      constexpr int kMostSteps = 16;
-      for (int step = 0; step < kMostSteps; ++step) {
-        const int last = bestFace;
-        for (const int around : Eigen::RowVector3i(mesh.faces.row(last))) visit(around);
-        if (bestFace == last) break;
-      }
-      faces.row(v) = mesh.faces.row(bestFace);
-      weights.row(v) = bestWeights.transpose();
-    }
-  });
-  return {std::move(faces), std::move(weights), mesh.vertices.rows()};
+  std::vector<int> itself(static_cast<std::size_t>(vertices.rows()));
+  std::iota(itself.begin(), itself.end(), 0);
+  return {{vertices, faces}, itself, itself};
 }
 
 } // namespace massprops

@@ -1,5 +1,7 @@
 #include "core/mesh/degenerate_faces.h"
 
+#include "core/base/triangle.h"
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 namespace massprops {
@@ -18,7 +20,9 @@ std::vector<int> facesWithoutArea(const Points& vertices, const Faces& faces) {
     const Vec3 a = vertices.row(faces(f, 0)).transpose();
     const Vec3 ab = vertices.row(faces(f, 1)).transpose() - a;
     const Vec3 ac = vertices.row(faces(f, 2)).transpose() - a;
-    if (ab.cross(ac).squaredNorm() > kSafe * kSafe * ab.squaredNorm() * ac.squaredNorm()) continue;
+    if (areaNormal(vertices, faces, f).squaredNorm() >
+        kSafe * kSafe * ab.squaredNorm() * ac.squaredNorm())
+      continue;
     const auto exact = [&](int v) {
       return Kernel::Point_3(vertices(v, 0), vertices(v, 1), vertices(v, 2));
     };

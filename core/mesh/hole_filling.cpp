@@ -13,7 +13,6 @@
 namespace massprops {
 namespace {
 
-using Kernel = SurfaceKernel;
 using Mesh = SurfaceMesh;
 namespace Processing = CGAL::Polygon_mesh_processing;
 
@@ -21,14 +20,14 @@ void requireLid(bool isClosed) {
   if (isClosed) return;
   throw InvalidInput(
       "An opening of the surface cannot be closed by a lid, which open_surface needs "
-      "for its own reckoning: straighten its border with Smoothing > Laplacian "
+      "for its own calculation: straighten its border with Smoothing > Laplacian "
       "Smooth on the selected border, then run again.");
 }
 
 } // namespace
 
 TriangleMesh withOpeningsFilled(const TriangleMesh& open) {
-  Mesh mesh = surfaceMesh(open);
+  auto mesh = surfaceMesh(open.vertices, open.faces);
   std::vector<Mesh::Halfedge_index> loops;
   Processing::extract_boundary_cycles(mesh, std::back_inserter(loops));
   for (const Mesh::Halfedge_index loop : loops) {
@@ -43,21 +42,8 @@ TriangleMesh withOpeningsFilled(const TriangleMesh& open) {
                        std::back_inserter(addedVertices));
   }
 
-  TriangleMesh closed{Points(static_cast<Eigen::Index>(mesh.number_of_vertices()), 3),
-                      Faces(static_cast<Eigen::Index>(mesh.number_of_faces()), 3)};
-  for (const Mesh::Vertex_index v : mesh.vertices()) {
-    const Kernel::Point_3& p = mesh.point(v);
-    closed.vertices.row(static_cast<Eigen::Index>(v.idx())) << p.x(), p.y(), p.z();
-  }
+  TriangleMesh closed = triangleMesh(mesh);
   closed.faces.topRows(open.faces.rows()) = open.faces;
-  for (const Mesh::Face_index f : mesh.faces()) {
-    const auto row = static_cast<Eigen::Index>(f.idx());
-    if (row < open.faces.rows()) continue;
-    int k = 0;
-    for (const Mesh::Vertex_index v : mesh.vertices_around_face(mesh.halfedge(f))) {
-      closed.faces(row, k++) = static_cast<int>(v.idx());
-    }
-  }
   for (const int f : facesWithoutArea(closed.vertices, closed.faces)) {
     requireLid(f < open.faces.rows());
   }

@@ -13,12 +13,12 @@ Vector lipschitzBelow(const Points& vertices, const VertexAdjacency& neighbours,
   Vector result = values;
   using Entry = std::pair<double, int>;
   std::vector<Entry> start;
-  const auto optimalBound = [&](Eigen::Index v, int w) {
+  const auto limitFor = [&](Eigen::Index v, int w) {
     return result[v] + slope * (vertices.row(v) - vertices.row(w)).norm();
   };
   for (Eigen::Index v = 0; v < values.size(); ++v) {
     for (const int w : neighbours[static_cast<std::size_t>(v)]) {
-      if (optimalBound(v, w) < values[w]) {
+      if (limitFor(v, w) < values[w]) {
         start.emplace_back(values[v], static_cast<int>(v));
         break;
       }
@@ -31,7 +31,7 @@ Vector lipschitzBelow(const Points& vertices, const VertexAdjacency& neighbours,
     queue.pop();
     if (value > result[v]) continue;
     for (const int w : neighbours[static_cast<std::size_t>(v)]) {
-      const double reached = optimalBound(v, w);
+      const double reached = limitFor(v, w);
       if (reached < result[w]) {
         result[w] = reached;
         queue.emplace(reached, w);

@@ -11,6 +11,8 @@ namespace massprops {
 double signedVolume(const Points& vertices, const Faces& faces);
 
 /// Turns every triangle over: counter-clockwise becomes clockwise.
-void flip(Faces& faces);
+inline void flip(Faces& faces) {
+  faces.col(1).swap(faces.col(2));
+}
 
 } // namespace massprops

@@ -1,6 +1,7 @@
 #include "core/model/contact.h"
 
 #include "core/base/angles.h"
+#include "core/base/tolerances.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/convex_hull_2.h>
@@ -13,8 +14,6 @@ namespace massprops {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-
-constexpr double kContactTolerance = 1e-4;
 
 double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -103,12 +102,12 @@ GroundContact groundContact(const Points& upright, const std::optional<Vec2>& ra
   const double diagonal = (upright.colwise().maxCoeff() - upright.colwise().minCoeff()).norm();
   std::vector<Vec2> touching;
   for (Eigen::Index v = 0; v < upright.rows(); ++v) {
-    if (upright(v, 2) <= ground + kContactTolerance * diagonal) {
+    if (upright(v, 2) <= ground + kContactHeight * diagonal) {
       touching.emplace_back(upright(v, 0), upright(v, 1));
     }
   }
   std::vector<Vec2> hull = convexHull(touching);
-  const double smallestArea = std::pow(kContactTolerance * diagonal, 2);
+  const double smallestArea = std::pow(kContactHeight * diagonal, 2);
   const bool flat = hull.size() >= 3 && signedArea(hull) > smallestArea;
   Vec2 centre = Vec2::Zero();
   if (flat) {

@@ -1,7 +1,9 @@
 #include "core/model/open_surface.h"
 
+#include "core/base/triangle.h"
 #include "core/mesh/components.h"
 #include "core/mesh/connectivity.h"
+#include "core/mesh/signed_volume.h"
 
 #include <algorithm>
 
@@ -77,7 +79,7 @@ Faces withoutLids(const Faces& cavity, Eigen::Index vertexCount) {
 
 Faces shellOf(const Faces& skin, const Faces& cavity, Eigen::Index vertexCount) {
   Faces inner = withoutLids(cavity, vertexCount);
-  inner.col(1).swap(inner.col(2));
+  flip(inner);
   Faces shell(skin.rows() + inner.rows(), 3);
   shell << skin.array() + static_cast<int>(vertexCount), inner;
   return shell;
@@ -92,12 +94,7 @@ Points stacked(const Points& inner, const Points& outer) {
 Points levelAtRim(const Points& vertices, const Faces& faces, const std::vector<char>& isLid,
                   const OpenSurface& open, Points axis) {
   const VertexCorners corners = vertexCorners(vertices.rows(), faces);
-  const auto normal = [&](Eigen::Index f) {
-    const Vec3 a = vertices.row(faces(f, 0)).transpose();
-    const Vec3 b = vertices.row(faces(f, 1)).transpose();
-    const Vec3 c = vertices.row(faces(f, 2)).transpose();
-    return Vec3((b - a).cross(c - a));
-  };
+  const auto normal = [&](Eigen::Index f) { return areaNormal(vertices, faces, f); };
   for (const int v : open.rim) {
     Vec3 up = Vec3::Zero();
     for (const int corner : corners.at(v)) {

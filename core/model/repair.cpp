@@ -1,14 +1,13 @@
 #include "core/model/repair.h"
 
 #include "core/base/parallel.h"
+#include "core/mesh/cgal_mesh.h"
 #include "core/mesh/components.h"
 #include "core/mesh/connectivity.h"
 #include "core/mesh/degenerate_faces.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
 #include <CGAL/Polygon_mesh_processing/shape_predicates.h>
-#include <CGAL/Surface_mesh.h>
 
 #include <algorithm>
 #include <array>
@@ -18,9 +17,6 @@
 
 namespace massprops {
 namespace {
-
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
 /// Every vertex becomes the first one with the same coordinates. Returns how many changed.
 int mergeCoincident(TriangleMesh& mesh) {
@@ -121,7 +117,7 @@ std::string Repairs::describe() const {
   append(text, unusedVertices, "unused vertex", "unused vertices", "left out");
   append(text, zeroAreaFaces, "face without area", "faces without area", "removed");
   append(text, duplicateFaces, "duplicate face", "duplicate faces", "removed");
-  append(text, flippedComponents, "component", "components", "turned round");
+  append(text, flippedComponents, "component", "components", "flipped");
   append(text, replacedCavities, "existing cavity", "existing cavities", "replaced by the new one");
   return text.empty() ? "none" : text;
 }
@@ -145,18 +141,10 @@ RepairedMesh mergedAndCompacted(const TriangleMesh& mesh) {
 
 RepairedMesh withoutZeroAreaFaces(RepairedMesh input) {
   if (facesWithoutArea(input.mesh.vertices, input.mesh.faces).empty()) return input;
-  Mesh mesh;
-  const TriangleMesh& old = input.mesh;
-  for (Eigen::Index v = 0; v < old.vertices.rows(); ++v) {
-    mesh.add_vertex({old.vertices(v, 0), old.vertices(v, 1), old.vertices(v, 2)});
-  }
-  const auto vertex = [](int v) { return Mesh::Vertex_index(static_cast<Mesh::size_type>(v)); };
-  for (Eigen::Index f = 0; f < old.faces.rows(); ++f) {
-    mesh.add_face(vertex(old.faces(f, 0)), vertex(old.faces(f, 1)), vertex(old.faces(f, 2)));
-  }
+  auto mesh = surfaceMesh(input.mesh.vertices, input.mesh.faces);
   const auto degenerate = [&] {
     return static_cast<int>(
-        std::count_if(mesh.faces_begin(), mesh.faces_end(), [&](Mesh::Face_index f) {
+        std::count_if(mesh.faces_begin(), mesh.faces_end(), [&](SurfaceMesh::Face_index f) {
           return CGAL::Polygon_mesh_processing::is_degenerate_triangle_face(f, mesh);
         }));
   };
@@ -165,18 +153,7 @@ RepairedMesh withoutZeroAreaFaces(RepairedMesh input) {
   CGAL::Polygon_mesh_processing::remove_degenerate_faces(mesh);
   mesh.collect_garbage();
   input.repairs.zeroAreaFaces += before - degenerate();
-  input.mesh.vertices.resize(static_cast<Eigen::Index>(mesh.number_of_vertices()), 3);
-  for (const Mesh::Vertex_index v : mesh.vertices()) {
-    const Kernel::Point_3& p = mesh.point(v);
-    input.mesh.vertices.row(static_cast<Eigen::Index>(v.idx())) << p.x(), p.y(), p.z();
-  }
-  input.mesh.faces.resize(static_cast<Eigen::Index>(mesh.number_of_faces()), 3);
-  for (const Mesh::Face_index f : mesh.faces()) {
-    int k = 0;
-    for (const Mesh::Vertex_index v : mesh.vertices_around_face(mesh.halfedge(f))) {
-      input.mesh.faces(static_cast<Eigen::Index>(f.idx()), k++) = static_cast<int>(v.idx());
-    }
-  }
+  input.mesh = triangleMesh(mesh);
   return input;
 }
 

@@ -16,7 +16,7 @@ struct Repairs {
   int flippedComponents = 0; ///< faced the wrong way throughout
   int replacedCavities = 0;  ///< existing cavities that the new one takes the place of
 
-  /// "12 duplicate vertices merged, 1 component turned round", or "none".
+  /// "12 duplicate vertices merged, 1 component flipped", or "none".
   std::string describe() const;
 };
 

@@ -69,7 +69,7 @@ std::size_t requireManifoldEdges(const TriangleMesh& mesh, bool mayBeOpen) {
 }
 
 void requireManifoldVertices(const TriangleMesh& mesh) {
-  // Turning round a vertex from one face to the next, from a boundary if there is one, must lead
+  // Going round a vertex from one face to the next, from a boundary if there is one, must lead
   // through all of its faces.
   const VertexCorners corners = vertexCorners(mesh.vertices.rows(), mesh.faces);
   const std::vector<int> opposite = oppositeHalfEdges(corners, mesh.faces);
@@ -116,7 +116,7 @@ void requireNoSelfIntersection(const Points& vertices, const Faces& faces,
   if (crossing > 0 && crossingFaces.back() >= skinFaces) {
     throw InvalidInput(
         "A lid that closes an opening of the surface, which open_surface needs for "
-        "its own reckoning, crosses the surface: close the opening with Remeshing > "
+        "its own calculation, crosses the surface: close the opening with Remeshing > "
         "Close Holes, or cut the model where its openings are flat, then run again.");
   }
   if (crossing > 0) {
@@ -192,86 +192,111 @@ Faces stacked(const std::vector<Faces>& parts) {
   return result;
 }
 
-} // namespace
+/// The input, mended and closed.
+struct ClosedSurface {
+  RepairedMesh repaired;
+  Eigen::Index skinFaces; ///< those before the lids
+  bool hasLids;
+};
 
-Solid makeSolid(const TriangleMesh& input, bool closeOpenings, const Mat3& rotation,
-                CrossingCheck check) {
-  requireFiniteTriangles(input);
+ClosedSurface closedSurface(const TriangleMesh& input, bool closeOpenings) {
   RepairedMesh repaired = mergedAndCompacted(input);
   if (repaired.mesh.faces.rows() == 0) {
     throw InvalidInput("The layer has only faces without area: open a model that is a solid body.");
   }
   const std::size_t boundary = requireManifoldEdges(repaired.mesh, closeOpenings);
   requireManifoldVertices(repaired.mesh);
-  const Eigen::Index skinFaces = repaired.mesh.faces.rows();
   if (boundary > 0) {
     requireNoFlatFaces(repaired.mesh);
+    const Eigen::Index skinFaces = repaired.mesh.faces.rows();
     repaired.mesh = withOpeningsFilled(repaired.mesh);
-  } else {
-    repaired = withoutFlatFaces(std::move(repaired));
+    return {std::move(repaired), skinFaces, true};
   }
-  const TriangleMesh& mesh = repaired.mesh;
-  if (mesh.faces.rows() == 0) {
+  repaired = withoutFlatFaces(std::move(repaired));
+  const Eigen::Index skinFaces = repaired.mesh.faces.rows();
+  if (skinFaces == 0) {
     throw InvalidInput("The surface encloses no volume: open a model that is a solid body.");
   }
+  return {std::move(repaired), skinFaces, false};
+}
 
-  Solid solid;
-  solid.repairs_ = repaired.repairs;
-  const Eigen::RowVector3d extent =
-      mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff();
-  solid.diagonal_ = extent.norm();
-  const double roundOff = 1e-12 * std::pow(solid.diagonal_, 3);
-  Components components;
-  inParallel([&] { components = connectedComponents(mesh.vertices.rows(), mesh.faces); },
-             [&] {
-               solid.spatialFaceOrder_ =
-                   orderInSpace(mesh.vertices, mesh.faces, rotation, solid.diagonal_);
-             });
+std::vector<double> requireVolumes(const Points& vertices, const Components& components,
+                                   double diagonal) {
+  const double roundOff = 1e-12 * std::pow(diagonal, 3);
   std::vector<double> volumes;
   for (const Faces& component : components) {
-    volumes.push_back(signedVolume(mesh.vertices, component));
+    volumes.push_back(signedVolume(vertices, component));
     if (!(std::abs(volumes.back()) > roundOff)) {
       throw InvalidInput("The surface, or a component of it, encloses no volume: use Cleaning and "
                          "Repairing > Remove Isolated pieces (wrt Diameter), or open a model that "
                          "is a solid body.");
     }
   }
-  // Which component is inside of which one is known only where they do not cross.
-  solid.mayCross_ = check == CrossingCheck::Later && boundary == 0 && components.size() == 1;
-  if (!solid.mayCross_) {
-    requireNoSelfIntersection(mesh.vertices, mesh.faces, solid.spatialFaceOrder_,
-                              boundary > 0 ? skinFaces : mesh.faces.rows());
-  }
-  const std::vector<int> depths = nestingDepths(mesh.vertices, components);
-  std::vector<Faces> bodies;
-  std::vector<Faces> cavities;
+  return volumes;
+}
+
+/// Faces of bodies, outward, and of the cavities in them, oriented into them.
+struct NestedParts {
+  std::vector<Faces> bodies, cavities;
+  int flipped = 0; ///< that faced the wrong way
+};
+
+NestedParts nestedParts(const Points& vertices, Components components,
+                        const std::vector<double>& volumes, bool hasLids) {
+  const std::vector<int> depths = nestingDepths(vertices, components);
+  NestedParts parts;
   for (std::size_t c = 0; c < components.size(); ++c) {
     if (depths[c] > 1) {
       throw InvalidInput("A part of the model lies loose inside of a cavity of another one: remove "
                          "it (Mesh Layer > Split in Connected Components), then run again.");
     }
     const bool isCavity = depths[c] == 1;
-    if (isCavity && boundary > 0) {
+    if (isCavity && hasLids) {
       throw InvalidInput("A part of the open surface lies inside of another one: remove it (Mesh "
                          "Layer > Split in Connected Components), then run again.");
     }
     if ((volumes[c] < 0.0) != isCavity) {
       flip(components[c]);
-      ++solid.repairs_.flippedComponents;
+      ++parts.flipped;
     }
-    (isCavity ? cavities : bodies).push_back(components[c]);
+    (isCavity ? parts.cavities : parts.bodies).push_back(std::move(components[c]));
   }
-  solid.repairs_.replacedCavities = static_cast<int>(cavities.size());
-  const Submesh body = submesh(mesh.vertices, stacked(bodies));
-  if (boundary > 0)
-    solid.isLid_ = marksOf(body, mesh.faces.bottomRows(mesh.faces.rows() - skinFaces));
+  return parts;
+}
+
+} // namespace
+
+Solid makeSolid(const TriangleMesh& input, bool closeOpenings, const Mat3& rotation) {
+  requireFiniteTriangles(input);
+  const ClosedSurface surface = closedSurface(input, closeOpenings);
+  const TriangleMesh& mesh = surface.repaired.mesh;
+  const Points& x = mesh.vertices;
+  Solid solid;
+  solid.diagonal_ = (x.colwise().maxCoeff() - x.colwise().minCoeff()).norm();
+  Components components;
+  std::vector<int> order;
+  inParallel([&] { components = connectedComponents(x.rows(), mesh.faces); },
+             [&] { order = orderInSpace(x, mesh.faces, rotation, solid.diagonal_); });
+  const bool isOne = components.size() == 1;
+  const std::vector<double> volumes = requireVolumes(x, components, solid.diagonal_);
+  // Which component is inside of which one is known only where they do not cross.
+  solid.mayCross_ = !surface.hasLids && isOne;
+  if (!solid.mayCross_) requireNoSelfIntersection(x, mesh.faces, order, surface.skinFaces);
+
+  const NestedParts parts = nestedParts(x, std::move(components), volumes, surface.hasLids);
+  const Submesh body = submesh(x, stacked(parts.bodies));
   solid.mesh_ = body.mesh;
-  if (components.size() > 1) {
-    // Their faces were renumbered, and cavities must not show.
-    solid.spatialFaceOrder_ =
-        orderInSpace(body.mesh.vertices, body.mesh.faces, rotation, solid.diagonal_);
+  solid.cavities_ = submesh(x, stacked(parts.cavities)).mesh;
+  if (surface.hasLids) {
+    solid.isLid_ = marksOf(body, mesh.faces.bottomRows(mesh.faces.rows() - surface.skinFaces));
   }
-  solid.cavities_ = submesh(mesh.vertices, stacked(cavities)).mesh;
+  // Of several components the faces were renumbered, and cavities must not show.
+  solid.spatialFaceOrder_ =
+      isOne ? std::move(order)
+            : orderInSpace(body.mesh.vertices, body.mesh.faces, rotation, solid.diagonal_);
+  solid.repairs_ = surface.repaired.repairs;
+  solid.repairs_.flippedComponents = parts.flipped;
+  solid.repairs_.replacedCavities = static_cast<int>(parts.cavities.size());
   return solid;
 }
 

@@ -8,12 +8,9 @@
 
 namespace massprops {
 
-/// Looking for crossings is most of the work of `makeSolid`. `Later`: a single closed surface is
-/// left to `requireNoCrossings`, which may run beside the first stages that use the solid.
-enum class CrossingCheck { Now, Later };
-
 /// One or more disjoint bodies, each bounded by a closed 2-manifold of its own with triangles
-/// counter-clockwise seen from outside; no crossings (but see `CrossingCheck`), every vertex used,
+/// counter-clockwise seen from outside; no crossings (but see
+/// `requireNoCrossings`), every vertex used,
 /// positive volume. Only `makeSolid` makes one.
 class Solid {
 public:
@@ -27,12 +24,11 @@ public:
   /// For every face whether it is one of a lid that closes an opening of the input; empty when the
   /// input was closed.
   const std::vector<char>& isLid() const { return isLid_; }
-  /// The faces' numbers in the order of `spatialOrder`, seen in the turned frame.
+  /// The faces' numbers in the order of `spatialOrder`, seen in the frame that was given.
   const std::vector<int>& spatialFaceOrder() const { return spatialFaceOrder_; }
 
 private:
-  friend Solid makeSolid(const TriangleMesh& input, bool closeOpenings, const Mat3& rotation,
-                         CrossingCheck check);
+  friend Solid makeSolid(const TriangleMesh& input, bool closeOpenings, const Mat3& rotation);
   friend void requireNoCrossings(const Solid& solid);
   TriangleMesh mesh_;
   TriangleMesh cavities_;
@@ -43,16 +39,17 @@ private:
   bool mayCross_ = false;
 };
 
-/// Mends what `repair.h` mends, turns components round that face the wrong way throughout, and sets
+/// Mends what `repair.h` mends, flips components that face the wrong way throughout, and sets
 /// components that lie inside of another one aside as existing cavities.
-/// `closeOpenings`: boundary loops get lids (lids.h); otherwise an open surface is refused.
+/// `closeOpenings`: boundary loops get lids (hole_filling.h); otherwise an open surface is refused.
 /// `rotation`: of the frame in which `spatialFaceOrder` is the same for a model that is turned.
 /// \throw InvalidInput with the number of defects and the MeshLab filter that mends them
 Solid makeSolid(const TriangleMesh& input, bool closeOpenings = false,
-                const Mat3& rotation = Mat3::Identity(), CrossingCheck check = CrossingCheck::Now);
+                const Mat3& rotation = Mat3::Identity());
 
-/// Does what `makeSolid` has left for later, if anything.
-/// \throw InvalidInput as `makeSolid` would have
+/// Looks for crossings where `makeSolid` has not: of a single closed surface, for that is most of
+/// the work and may be done beside the first stages that use the solid.
+/// \throw InvalidInput as `makeSolid` does
 void requireNoCrossings(const Solid& solid);
 
 } // namespace massprops

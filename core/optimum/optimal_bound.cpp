@@ -1,6 +1,7 @@
 #include "core/optimum/optimal_bound.h"
 
 #include "core/base/parallel.h"
+#include "core/base/tolerances.h"
 #include "core/goals/objective.h"
 #include "core/query/point_in_mesh.h"
 #include "core/query/triangle_tree.h"
@@ -24,7 +25,6 @@ Moments cubeMoments(const Vec3& p, double edge, double volume) {
 }
 
 constexpr int kNone = -1;
-constexpr double kFeasibility = 1e-6;
 /// Of the largest: functions that hardly vary over the region are left out.
 constexpr double kLeastSquare = 1e-10;
 
@@ -125,7 +125,7 @@ private:
     if (ball.radius <= wall_ - half) return;
     // Asked only where it tells the side of all parts: their middles are half as far as corners.
     if (isSideKnown || ball.radius > 0.5 * half || level == 0) {
-      if (!isSideKnown) ball.isInside = isInside(centre, nearest, surface_);
+      if (!isSideKnown) ball.isInside = PointInMesh(surface_).contains(centre, nearest);
       known_.push_back(ball);
       if (!ball.isInside && ball.radius >= nothing) return;
     }

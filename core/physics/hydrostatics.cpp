@@ -1,5 +1,6 @@
 #include "core/physics/hydrostatics.h"
 
+#include "core/base/triangle.h"
 #include "core/physics/moments.h"
 
 #include <Eigen/Eigenvalues>
@@ -33,7 +34,7 @@ class WetSurface {
 public:
   void add(const Vec3& a, const Vec3& b, const Vec3& c) {
     // Tetrahedra to the origin, which lies on the waterplane, so that the plane adds nothing.
-    const double D = a.dot((b - a).cross(c - a));
+    const double D = a.dot(areaNormal(a, b, c));
     const Vec3 s = a + b + c;
     volume += D / 6.0;
     first += D / 24.0 * s;
@@ -136,50 +137,68 @@ double levelFor(const Points& vertices, const Faces& faces, const Vec3& up, doub
   return level;
 }
 
-FloatingPose floatingPose(const Points& vertices, const Faces& faces, const Vec3& centre,
-                          double displaced) {
-  const Moments whole = moments(vertices, faces);
-  FloatingPose pose;
-  if (displaced > (1.0 - kNeutral) * whole[0]) {
-    // Under water the centre of buoyancy hangs above the centre of mass.
-    const Vec3 arm = whole.segment<3>(1) / whole[0] - centre;
-    pose.submerged = true;
-    pose.floats = displaced < (1.0 + kNeutral) * whole[0];
-    if (arm.norm() > 0.0) pose.up = arm.normalized();
-    pose.leastMetacentricHeight = pose.greatestMetacentricHeight = arm.norm();
-    const Vector heights = vertices * pose.up;
-    pose.draught = heights.maxCoeff() - heights.minCoeff();
-    return pose;
-  }
-  pose.floats = true;
+namespace {
 
-  // The potential energy over the weight is U = (c − B)·up at constant displacement; along unit
-  // tangents t, dU = (c − B)·t and d²U = tᵀJt/V − (c − B)·up, which is the metacentric height.
+/// Under water the centre of buoyancy hangs above the centre of mass.
+FloatingPose underWater(const Points& vertices, const Moments& whole, const Vec3& centre,
+                        double displaced) {
+  const Vec3 arm = whole.segment<3>(1) / whole[0] - centre;
+  FloatingPose pose;
+  pose.submerged = true;
+  pose.floats = displaced < (1.0 + kNeutral) * whole[0];
+  if (arm.norm() > 0.0) pose.up = arm.normalized();
+  pose.leastMetacentricHeight = pose.greatestMetacentricHeight = arm.norm();
+  const Vector heights = vertices * pose.up;
+  pose.draught = heights.maxCoeff() - heights.minCoeff();
+  return pose;
+}
+
+/// Turns a body downhill until it floats at rest. The potential energy over the weight is
+/// U = (c − B)·up at constant displacement; along unit tangents t, dU = (c − B)·t and
+/// d²U = tᵀJt/V − (c − B)·up, which is the metacentric height.
+class Floating {
+public:
+  Floating(const Points& vertices, const Faces& faces, const Vec3& centre, double displaced)
+      : vertices_(vertices), faces_(faces), centre_(centre), displaced_(displaced),
+        state_(at(pose_.up)) {
+    pose_.floats = true;
+  }
+
+  FloatingPose settled() {
+    constexpr int kMostSteps = 200;
+    for (int step = 0;; ++step) {
+      const Mat3 frame = frameOf(pose_.up);
+      const Eigen::Matrix2d hessian =
+          (frame * state_.d.waterplaneMoment * frame.transpose()).topLeftCorner<2, 2>() /
+              displaced_ -
+          state_.energy * Eigen::Matrix2d::Identity();
+      const Axes axes(hessian);
+      pose_.leastMetacentricHeight = axes.eigenvalues()[0];
+      pose_.greatestMetacentricHeight = axes.eigenvalues()[1];
+      const Vec2 gradient = (frame * (centre_ - state_.d.centre)).head<2>();
+      const bool isStable = gradient.norm() < kLevelled && axes.eigenvalues()[0] >= 0.0;
+      if (step == kMostSteps || isStable || !descends(frame, downhill(gradient, axes))) break;
+    }
+    pose_.draught = state_.level - (vertices_ * pose_.up).minCoeff();
+    return pose_;
+  }
+
+private:
   struct State {
     Displacement d;
     double level, energy;
   };
-  const auto at = [&](const Vec3& up) {
-    const double level = levelFor(vertices, faces, up, displaced);
-    const Displacement d = displacement(vertices, faces, up, level);
-    return State{d, level, (centre - d.centre).dot(up)};
-  };
-  State state = at(pose.up);
-  constexpr int kMostSteps = 200;
-  for (int step = 0;; ++step) {
-    const Mat3 frame = frameOf(pose.up);
-    const Vec2 gradient = (frame * (centre - state.d.centre)).head<2>();
-    const Eigen::Matrix2d hessian =
-        (frame * state.d.waterplaneMoment * frame.transpose()).topLeftCorner<2, 2>() / displaced -
-        state.energy * Eigen::Matrix2d::Identity();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(hessian);
-    pose.leastMetacentricHeight = axes.eigenvalues()[0];
-    pose.greatestMetacentricHeight = axes.eigenvalues()[1];
-    if (step == kMostSteps) break;
+  using Axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>;
 
+  State at(const Vec3& up) const {
+    const double level = levelFor(vertices_, faces_, up, displaced_);
+    const Displacement d = displacement(vertices_, faces_, up, level);
+    return {d, level, (centre_ - d.centre).dot(up)};
+  }
+
+  static Vec2 downhill(const Vec2& gradient, const Axes& axes) {
     Vec2 turn;
     if (gradient.norm() < kLevelled) {
-      if (axes.eigenvalues()[0] >= 0.0) break;
       turn = kPush * axes.eigenvectors().col(0);
     } else {
       // Newton's step with the curvatures made positive always leads down.
@@ -187,20 +206,40 @@ FloatingPose floatingPose(const Points& vertices, const Faces& faces, const Vec3
       const Vec2 curvature = axes.eigenvalues().cwiseAbs().cwiseMax(1e-6);
       turn = -axes.eigenvectors() * along.cwiseQuotient(curvature);
     }
-    if (turn.norm() > kMostTurn) turn *= kMostTurn / turn.norm();
-    bool descended = false;
-    for (int halving = 0; halving < 30 && !descended; ++halving, turn *= 0.5) {
-      const Vec3 up = (pose.up + frame.topRows<2>().transpose() * turn).normalized();
-      const State next = at(up);
-      if (next.energy >= state.energy) continue;
-      state = next;
-      pose.up = up;
-      descended = true;
-    }
-    if (!descended) break;
+    return turn.norm() > kMostTurn ? Vec2(turn * (kMostTurn / turn.norm())) : turn;
   }
-  pose.draught = state.level - (vertices * pose.up).minCoeff();
-  return pose;
+
+  /// Turns as far as leads down; returns whether it does at all.
+  bool descends(const Mat3& frame, Vec2 turn) {
+    constexpr int kMostHalvings = 30;
+    for (int halving = 0; halving < kMostHalvings; ++halving, turn *= 0.5) {
+      const Vec3 up = (pose_.up + frame.topRows<2>().transpose() * turn).normalized();
+      const State next = at(up);
+      if (next.energy >= state_.energy) continue;
+      state_ = next;
+      pose_.up = up;
+      return true;
+    }
+    return false;
+  }
+
+  const Points& vertices_;
+  const Faces& faces_;
+  const Vec3& centre_;
+  double displaced_;
+  FloatingPose pose_;
+  State state_;
+};
+
+} // namespace
+
+FloatingPose floatingPose(const Points& vertices, const Faces& faces, const Vec3& centre,
+                          double displaced) {
+  const Moments whole = moments(vertices, faces);
+  if (displaced > (1.0 - kNeutral) * whole[0]) {
+    return underWater(vertices, whole, centre, displaced);
+  }
+  return Floating(vertices, faces, centre, displaced).settled();
 }
 
 } // namespace massprops

@@ -1,6 +1,7 @@
 #include "core/physics/moments.h"
 
 #include "core/base/parallel.h"
+#include "core/base/triangle.h"
 
 #include <vector>
 
@@ -9,18 +10,10 @@ namespace {
 
 constexpr Eigen::Index kChunk = 2048;
 
-using Row3 = Eigen::RowVector3d;
-using SymmetricSix = Eigen::Matrix<double, 1, 6>;
+using SymmetricSix = Eigen::Matrix<double, 6, 1>;
 
-/// (xx, yy, zz, xy, yz, zx) of the symmetric product (p qᵀ + q pᵀ)/2.
-SymmetricSix symmetricProduct(const Row3& p, const Row3& q) {
-  SymmetricSix six;
-  six << p.x() * q.x(), p.y() * q.y(), p.z() * q.z(), 0.5 * (p.x() * q.y() + p.y() * q.x()),
-      0.5 * (p.y() * q.z() + p.z() * q.y()), 0.5 * (p.z() * q.x() + p.x() * q.z());
-  return six;
-}
-
-SymmetricSix square(const Row3& p) {
+/// (xx, yy, zz, xy, yz, zx) of p pᵀ.
+SymmetricSix square(const Vec3& p) {
   SymmetricSix six;
   six << p.x() * p.x(), p.y() * p.y(), p.z() * p.z(), p.x() * p.y(), p.y() * p.z(), p.z() * p.x();
   return six;
@@ -89,20 +82,19 @@ Moments moments(const Points& vertices, const Faces& faces, bool withSecond) {
   std::vector<Moments> parts(static_cast<std::size_t>(chunkCount(faces.rows(), kChunk)));
   forChunks(faces.rows(), kChunk, [&](const Chunk& chunk) {
     double volume = 0.0;
-    Row3 first = Row3::Zero();
+    Vec3 first = Vec3::Zero();
     SymmetricSix second = SymmetricSix::Zero();
     for (Eigen::Index f = chunk.begin; f < chunk.end; ++f) {
-      const Row3 a = vertices.row(faces(f, 0));
-      const Row3 b = vertices.row(faces(f, 1));
-      const Row3 c = vertices.row(faces(f, 2));
-      const double D = a.dot((b - a).cross(c - a));
-      const Row3 s = a + b + c;
+      const Vec3 a = vertices.row(faces(f, 0)).transpose();
+      const Vec3 b = vertices.row(faces(f, 1)).transpose();
+      const Vec3 c = vertices.row(faces(f, 2)).transpose();
+      const double D = a.dot(areaNormal(a, b, c));
+      const Vec3 s = a + b + c;
       volume += D;
       first += D * s;
       if (withSecond) second += D * (square(s) + square(a) + square(b) + square(c));
     }
-    parts[static_cast<std::size_t>(chunk.number)] << volume / 6.0, first.transpose() / 24.0,
-        second.transpose() / 120.0;
+    parts[static_cast<std::size_t>(chunk.number)] << volume / 6.0, first / 24.0, second / 120.0;
   });
   Moments result = Moments::Zero();
   for (const Moments& part : parts) result += part;
@@ -124,17 +116,6 @@ MomentsWithRates momentsWithRates(const Points& vertices, const Faces& faces,
              [&] { others = rates<false>(vertices, faces, directions, n / 2, n); });
   result.rates += others;
   result.moments = moments(vertices, faces, false);
-  return result;
-}
-
-Moments translated(const Moments& moments, const Vec3& shift) {
-  // ∫(x+t)(x+t)ᵀ = ∫xxᵀ + S tᵀ + t Sᵀ + V t tᵀ
-  const double V = moments[0];
-  const Row3 S = moments.segment<3>(1).transpose();
-  const Row3 t = shift.transpose();
-  Moments result = moments;
-  result.segment<3>(1) += V * shift;
-  result.segment<6>(4) += (2.0 * symmetricProduct(S, t) + V * square(t)).transpose();
   return result;
 }
 

@@ -28,9 +28,6 @@ struct MomentsWithRates {
 MomentsWithRates momentsWithRates(const Points& vertices, const Faces& faces,
                                   const Points& directions, bool withSecond = true);
 
-/// Moments of the same body moved by `shift`.
-Moments translated(const Moments& moments, const Vec3& shift);
-
 /// The 3×3 matrix ∫ x xᵀ dV in the last six entries.
 Mat3 secondMoment(const Moments& moments);
 

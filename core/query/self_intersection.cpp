@@ -1,6 +1,7 @@
 #include "core/query/self_intersection.h"
 
 #include "core/base/parallel.h"
+#include "core/base/triangle.h"
 #include "core/mesh/connectivity.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -8,7 +9,9 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace massprops {
@@ -27,7 +30,7 @@ constexpr Eigen::Index kMostChunks = 16;
 constexpr double kSafe = 1e-11;
 
 struct Normal {
-  Vec3 vector;   ///< (b − a) × (c − a)
+  Vec3 vector;   ///< `areaNormal`
   double length; ///< product of the lengths of both edges, the scale of the vector's rounding
 };
 
@@ -37,7 +40,8 @@ public:
   explicit SelfIntersections(const TriangleTree& surface)
       : x_(surface.vertices()), faces_(surface.faces()), tree_(surface),
         corners_(vertexCorners(x_.rows(), faces_)), opposite_(oppositeHalfEdges(corners_, faces_)),
-        isEmbedded_(static_cast<std::size_t>(x_.rows())) {}
+        isEmbedded_(static_cast<std::size_t>(x_.rows())),
+        size_((surface.upper() - surface.lower()).maxCoeff()) {}
 
   std::vector<int> find() {
     findEmbeddedFans();
@@ -75,7 +79,7 @@ private:
     const Vec3 a = point(faces_(f, 0));
     const Vec3 ab = point(faces_(f, 1)) - a;
     const Vec3 ac = point(faces_(f, 2)) - a;
-    return {ab.cross(ac), std::sqrt(ab.squaredNorm() * ac.squaredNorm())};
+    return {areaNormal(x_, faces_, f), std::sqrt(ab.squaredNorm() * ac.squaredNorm())};
   }
 
   using Box = Eigen::AlignedBox3d;
@@ -130,10 +134,11 @@ private:
   /// A rectangle across `axis`, a little larger and a little smaller than it is.
   struct Window {
     Vec3 axis, u, w;
+    Vec3 origin; ///< near the rectangle: coordinates far from it have few digits to spare
     Vec2 lower, upper;
     double slack;
 
-    Vec2 project(const Vec3& p) const { return {u.dot(p), w.dot(p)}; }
+    Vec2 project(const Vec3& p) const { return {u.dot(p - origin), w.dot(p - origin)}; }
     bool contains(const Vec2& p) const {
       return p.x() > lower.x() + slack && p.x() < upper.x() - slack && p.y() > lower.y() + slack &&
              p.y() < upper.y() - slack;
@@ -146,135 +151,167 @@ private:
     }
   };
 
+  /// A face's corners in the window's plane.
+  using Shadow = std::array<Vec2, 3>;
+  Shadow shadowOf(int f, const Window& window) const {
+    return {window.project(point(faces_(f, 0))), window.project(point(faces_(f, 1))),
+            window.project(point(faces_(f, 2)))};
+  }
+
+  /// Whether the face faces the axis and its corners in the cylinder have embedded fans.
+  bool isGraph(int f, const Shadow& shadow, const Window& window) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const bool mayBeIn = window.mayMeet(shadow[k], shadow[k]);
+      if (mayBeIn && isEmbedded_[at(faces_(f, static_cast<int>(k)))] == 0) return false;
+    }
+    return facesTowards(normal(f), window.axis);
+  }
+
   /// The faces that are connected within the cylinder over the window with face `seed`, if all of
   /// them face its axis and their vertices have embedded fans: then the projection of what is in
   /// the cylinder is a covering of the window, hence one-to-one. They get the number
   /// `patches.next`.
   bool growPatch(int seed, const Window& window, Patches& patches) const {
-    const int number = patches.next;
-    std::vector<int>& queue = patches.queue;
-    queue.assign(1, seed);
+    patches.queue.assign(1, seed);
     patches.doubtful.clear();
-    patches.of[at(seed)] = number;
-    bool isGraph = true;
-    std::size_t certain = 0; // faces before this one were surely reached within the cylinder
-    for (std::size_t i = 0; i < queue.size() && isGraph; ++i) {
-      const int f = queue[i];
-      isGraph = facesTowards(normal(f), window.axis);
-      Vec2 p[3];
-      bool in[3];
-      for (int k = 0; k < 3; ++k) {
-        p[k] = window.project(point(faces_(f, k)));
-        in[k] = window.contains(p[k]);
-        if (window.mayMeet(p[k], p[k]) && isEmbedded_[at(faces_(f, k))] == 0) isGraph = false;
-      }
-      for (int k = 0; k < 3; ++k) {
-        const int n = (k + 1) % 3;
+    patches.of[at(seed)] = patches.next;
+    bool isPatch = growSurely(window, patches);
+    const std::size_t sure = patches.queue.size();
+    // Faces that may be connected, too, must face the axis but count as strangers.
+    isPatch = isPatch && growPerhaps(window, patches);
+    for (std::size_t i = isPatch ? sure : 0; i < patches.queue.size(); ++i) {
+      patches.of[at(patches.queue[i])] = -1;
+    }
+    return isPatch;
+  }
+
+  /// Lengthens the queue by the faces that are reached within the cylinder; those of which rounding
+  /// hides it become doubtful. Returns whether all may form a patch.
+  bool growSurely(const Window& window, Patches& patches) const {
+    for (std::size_t i = 0; i < patches.queue.size(); ++i) {
+      const int f = patches.queue[i];
+      const Shadow p = shadowOf(f, window);
+      if (!isGraph(f, p, window)) return false;
+      const bool in[3] = {window.contains(p[0]), window.contains(p[1]), window.contains(p[2])};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t n = (k + 1) % 3;
         if (!window.mayMeet(p[k], p[n])) continue;
-        const int across = opposite_[at(3 * f + k)];
-        if (across < 0) {
-          isGraph = false;
-          break;
-        }
-        if (patches.of[at(across / 3)] == number) continue;
+        const int across = opposite_[3 * at(f) + k];
+        if (across < 0) return false;
+        if (patches.of[at(across / 3)] == patches.next) continue;
         if (in[k] || in[n]) {
-          patches.of[at(across / 3)] = number;
-          queue.push_back(across / 3);
+          patches.of[at(across / 3)] = patches.next;
+          patches.queue.push_back(across / 3);
         } else {
           patches.doubtful.push_back(across / 3);
         }
       }
     }
-    certain = queue.size();
-    // Faces that may be connected, too, must face the axis but count as strangers.
-    for (std::size_t i = 0; i < patches.doubtful.size() && isGraph; ++i) {
-      const int f = patches.doubtful[i];
-      if (patches.of[at(f)] == number) continue;
-      patches.of[at(f)] = number;
-      queue.push_back(f);
-      isGraph = facesTowards(normal(f), window.axis);
-      Vec2 p[3];
-      for (int k = 0; k < 3; ++k) {
-        p[k] = window.project(point(faces_(f, k)));
-        if (window.mayMeet(p[k], p[k]) && isEmbedded_[at(faces_(f, k))] == 0) isGraph = false;
-      }
-      for (int k = 0; k < 3; ++k) {
-        if (!window.mayMeet(p[k], p[(k + 1) % 3])) continue;
-        const int across = opposite_[at(3 * f + k)];
-        if (across < 0) {
-          isGraph = false;
-        } else if (patches.of[at(across / 3)] != number) {
-          patches.doubtful.push_back(across / 3);
-        }
-      }
-    }
-    for (std::size_t i = isGraph ? certain : 0; i < queue.size(); ++i)
-      patches.of[at(queue[i])] = -1;
-    return isGraph;
+    return true;
   }
 
-  void searchBlock(Eigen::Index block, Patches& patches, std::vector<int>& found) const {
-    const Eigen::Index begin = block * kBlock;
-    const Eigen::Index end = std::min(faces_.rows(), begin + kBlock);
-    Window window;
-    Vec3 axis = Vec3::Zero();
+  /// The same for what the doubtful faces lead to.
+  bool growPerhaps(const Window& window, Patches& patches) const {
+    for (std::size_t i = 0; i < patches.doubtful.size(); ++i) {
+      const int f = patches.doubtful[i];
+      if (patches.of[at(f)] == patches.next) continue;
+      patches.of[at(f)] = patches.next;
+      patches.queue.push_back(f);
+      const Shadow p = shadowOf(f, window);
+      if (!isGraph(f, p, window)) return false;
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (!window.mayMeet(p[k], p[(k + 1) % 3])) continue;
+        const int across = opposite_[3 * at(f) + k];
+        if (across < 0) return false;
+        if (patches.of[at(across / 3)] != patches.next) patches.doubtful.push_back(across / 3);
+      }
+    }
+    return true;
+  }
+
+  /// Triangles at the places begin … end − 1 of the tree.
+  struct Block {
+    Eigen::Index begin, end;
     Box boxes[kBlock];
     Box all;
-    double edge = 0.0;
-    for (Eigen::Index i = begin; i < end; ++i) {
+    Vec3 axis = Vec3::Zero(); ///< sum of the unit normals
+    double edge = 0.0;        ///< mean length
+  };
+
+  Block blockAt(Eigen::Index number) const {
+    Block block;
+    block.begin = number * kBlock;
+    block.end = std::min(faces_.rows(), block.begin + kBlock);
+    for (Eigen::Index i = block.begin; i < block.end; ++i) {
       const int f = tree_.faceAt(i);
       const Normal n = normal(f);
       const double length = n.vector.norm();
-      if (length > 0.0) axis += n.vector / length;
-      edge += std::sqrt(n.length);
-      boxes[i - begin] = boxOf(f);
-      all.extend(boxes[i - begin]);
+      if (length > 0.0) block.axis += n.vector / length;
+      block.edge += std::sqrt(n.length);
+      block.boxes[i - block.begin] = boxOf(f);
+      block.all.extend(block.boxes[i - block.begin]);
     }
-    edge /= static_cast<double>(end - begin);
-    patches.first = patches.next;
-    if (axis.norm() > 0.5) {
-      window.axis = axis.normalized();
-      window.u = window.axis.unitOrthogonal();
-      window.w = window.axis.cross(window.u);
-      window.lower.setConstant(std::numeric_limits<double>::infinity());
-      window.upper = -window.lower;
-      for (Eigen::Index i = begin; i < end; ++i) {
-        for (const int v : faces_.row(tree_.faceAt(i))) {
-          const Vec2 p = window.project(point(v));
-          window.lower = window.lower.cwiseMin(p);
-          window.upper = window.upper.cwiseMax(p);
-        }
+    block.edge /= static_cast<double>(block.end - block.begin);
+    return block;
+  }
+
+  Window windowOver(const Block& block) const {
+    Window window;
+    window.axis = block.axis.normalized();
+    window.u = window.axis.unitOrthogonal();
+    window.w = window.axis.cross(window.u);
+    window.origin = block.all.min();
+    window.lower.setConstant(std::numeric_limits<double>::infinity());
+    window.upper = -window.lower;
+    for (Eigen::Index i = block.begin; i < block.end; ++i) {
+      for (const Vec2& p : shadowOf(tree_.faceAt(i), window)) {
+        window.lower = window.lower.cwiseMin(p);
+        window.upper = window.upper.cwiseMax(p);
       }
-      window.slack =
-          kSafe * (all.min().cwiseAbs().cwiseMax(all.max().cwiseAbs()).maxCoeff() + edge);
-      window.lower.array() -= kMargin * edge;
-      window.upper.array() += kMargin * edge;
+    }
+    window.slack = kSafe * (size_ + block.edge);
+    window.lower.array() -= kMargin * block.edge;
+    window.upper.array() += kMargin * block.edge;
+    return window;
+  }
+
+  void searchBlock(Eigen::Index number, Patches& patches, std::vector<int>& found) const {
+    const Block block = blockAt(number);
+    patches.first = patches.next;
+    constexpr double kOneSided = 0.5;
+    if (block.axis.norm() > kOneSided) {
+      const Window window = windowOver(block);
       constexpr int kMostPatches = 4;
-      for (Eigen::Index i = begin; i < end && patches.next < patches.first + kMostPatches; ++i) {
+      for (Eigen::Index i = block.begin;
+           i < block.end && patches.next < patches.first + kMostPatches; ++i) {
         const int f = tree_.faceAt(i);
         if (patches.of[at(f)] >= patches.first) continue;
         if (!growPatch(f, window, patches)) break;
         ++patches.next;
       }
     }
-    // What is left: pairs that no patch has in common. Most often one patch has the whole block.
-    const int common = patches.of[at(tree_.faceAt(begin))];
+    comparePairs(block, patches, found);
+  }
+
+  /// Pairs that no patch has in common. Most often one patch has the whole block.
+  void comparePairs(const Block& block, const Patches& patches, std::vector<int>& found) const {
+    const int common = patches.of[at(tree_.faceAt(block.begin))];
     bool isOnePatch = common >= patches.first;
     int patchOf[kBlock];
-    for (Eigen::Index i = begin; i < end; ++i) {
-      patchOf[i - begin] = patches.of[at(tree_.faceAt(i))];
-      isOnePatch = isOnePatch && patchOf[i - begin] == common;
+    for (Eigen::Index i = block.begin; i < block.end; ++i) {
+      patchOf[i - block.begin] = patches.of[at(tree_.faceAt(i))];
+      isOnePatch = isOnePatch && patchOf[i - block.begin] == common;
     }
-    tree_.forOverlaps(all.min(), all.max(), begin, [&](Eigen::Index i) {
+    tree_.forOverlaps(block.all.min(), block.all.max(), block.begin, [&](Eigen::Index i) {
       const int f = tree_.faceAt(i);
       const int patch = patches.of[at(f)];
       const bool isKnown = patch >= patches.first;
       if (isOnePatch && patch == common) return;
       const Box box = boxOf(f);
-      if (!box.intersects(all)) return;
-      for (Eigen::Index j = begin; j < std::min(end, i); ++j) {
-        if (!box.intersects(boxes[j - begin]) || (isKnown && patchOf[j - begin] == patch)) continue;
-        const int g = tree_.faceAt(j);
+      if (!box.intersects(block.all)) return;
+      for (Eigen::Index j = 0; j < std::min(block.end, i) - block.begin; ++j) {
+        if (!box.intersects(block.boxes[j]) || (isKnown && patchOf[j] == patch)) continue;
+        const int g = tree_.faceAt(block.begin + j);
         if (cross(f, g)) {
           found.push_back(f);
           found.push_back(g);
@@ -327,7 +364,7 @@ private:
                                 exact(faces_(face, 2)));
     };
     if (shared == 0 && areApart(f, g)) return false;
-    // The predicates do not take faces without area, which `facesWithoutArea` tells.
+    // The predicates do not take faces without area, which `facesWithoutArea` finds.
     if (triangle(f).is_degenerate() || triangle(g).is_degenerate()) return false;
     if (shared == 0) return CGAL::do_intersect(triangle(f), triangle(g));
     if (shared == 1) {
@@ -351,6 +388,7 @@ private:
   VertexCorners corners_;
   std::vector<int> opposite_;
   std::vector<char> isEmbedded_;
+  double size_; ///< of the surface's box
 };
 
 } // namespace

@@ -30,7 +30,7 @@ double squaredRadius(double ab, double bc, double ca) {
 /// Bounds of distances by what is known of where vertices and faces were.
 class Remembered {
 public:
-  Remembered(const ClearanceMemory& memory, const Points& vertices)
+  Remembered(const ClearanceQuery::Memory& memory, const Points& vertices)
       : memory_(memory), corners_(vertexCorners(vertices.rows(), memory.faces)) {
     if (!isEmpty()) moved_ = (vertices - memory.vertices).rowwise().norm();
   }
@@ -52,7 +52,7 @@ public:
   }
 
 private:
-  const ClearanceMemory& memory_;
+  const ClearanceQuery::Memory& memory_;
   VertexCorners corners_;
   Vector moved_;
 };
@@ -61,7 +61,7 @@ private:
 class Measurement {
 public:
   Measurement(const Points& vertices, const Faces& faces, const TriangleTree& other, double horizon,
-              const ClearanceMemory& memory)
+              const ClearanceQuery::Memory& memory)
       : x_(vertices), faces_(faces), other_(other), horizon_(horizon),
         remembered_(memory, vertices), squared_(Vector::Constant(vertices.rows(), kInfinity)),
         vertexBounds_(Vector::Zero(vertices.rows())), faceBounds_(faces.rows()),
@@ -145,7 +145,9 @@ public:
   }
 
   const std::vector<int>& nearestFace() const { return nearestFace_; }
-  ClearanceMemory memory() const { return {x_, nearestFace_, faces_, vertexBounds_, faceBounds_}; }
+  ClearanceQuery::Memory memory() const {
+    return {x_, nearestFace_, faces_, vertexBounds_, faceBounds_};
+  }
 
 private:
   struct Near {
@@ -239,18 +241,7 @@ private:
 
 } // namespace
 
-Vector chords(const TriangleTree& surface, const Points& points, const Points& directions) {
-  Vector result(points.rows());
-  forChunks(points.rows(), kChunk, [&](const Chunk& chunk) {
-    for (Eigen::Index i = chunk.begin; i < chunk.end; ++i) {
-      result[i] = surface.firstHit(points.row(i).transpose(), directions.row(i).transpose());
-    }
-  });
-  return result;
-}
-
-Clearance clearanceOf(const Points& vertices, const Faces& faces, const TriangleTree& other,
-                      double horizon, ClearanceMemory* memory) {
+Clearance ClearanceQuery::measure(const Points& vertices, const Faces& faces, double horizon) {
   Clearance result;
   if (faces.rows() == 0) {
     result.distance = Vector::Constant(vertices.rows(), kInfinity);
@@ -258,21 +249,15 @@ Clearance clearanceOf(const Points& vertices, const Faces& faces, const Triangle
     result.least = kInfinity;
     return result;
   }
-  const ClearanceMemory nothing;
-  Measurement measurement(vertices, faces, other, horizon, memory != nullptr ? *memory : nothing);
+  Measurement measurement(vertices, faces, other_, horizon, memory_);
   measurement.measureVertices();
   result.crossing = measurement.measureFaces();
   measurement.findLeast();
   result.distance = measurement.distances();
   result.least = result.distance.minCoeff();
   result.nearestFace = measurement.nearestFace();
-  if (memory != nullptr) *memory = measurement.memory();
+  memory_ = measurement.memory();
   return result;
-}
-
-Vector surfaceDistances(const Points& vertices, const Faces& faces, const Points& otherVertices,
-                        const Faces& otherFaces, double horizon) {
-  return clearanceOf(vertices, faces, TriangleTree(otherVertices, otherFaces), horizon).distance;
 }
 
 } // namespace massprops

@@ -1,14 +1,12 @@
-// Distances between surfaces and chords through them.
+// How far a surface is from another one, edges and insides of faces included.
 #pragma once
 
 #include "core/base/types.h"
 #include "core/query/triangle_tree.h"
 
-namespace massprops {
+#include <vector>
 
-/// Length of the chord from row i of `points` along row i of `directions` (unit) to the first
-/// triangle that does not contain the start, infinity where there is none. n entries.
-Vector chords(const TriangleTree& surface, const Points& points, const Points& directions);
+namespace massprops {
 
 struct Clearance {
   /// For every vertex that a face uses: the least distance of the triangles around it from the
@@ -20,24 +18,28 @@ struct Clearance {
   std::vector<int> nearestFace; ///< of the other surface, for every vertex; −1 without a face
 };
 
-/// What a measurement against a surface leaves for the next one against the same: what has hardly
-/// moved since needs no second look.
-struct ClearanceMemory {
-  Points vertices;
-  std::vector<int> nearestFace;
-  Faces faces;
-  /// Vertices and faces are at least so far away.
-  Vector vertexBounds, faceBounds;
+/// Measures surfaces against one that rests, and remembers: what has hardly moved since the last
+/// measurement needs no second look. docs/math.md "Measuring the wall"
+class ClearanceQuery {
+public:
+  /// Refers to the tree, which needs all its queries.
+  explicit ClearanceQuery(const TriangleTree& other) : other_(other) {}
+
+  /// `vertices`, `faces`: in later calls the same vertices at other places, and other faces.
+  /// `horizon`: distances above it need not be exact.
+  Clearance measure(const Points& vertices, const Faces& faces, double horizon);
+
+  /// Where vertices and faces were, and how far away they are at least.
+  struct Memory {
+    Points vertices;
+    std::vector<int> nearestFace;
+    Faces faces;
+    Vector vertexBounds, faceBounds;
+  };
+
+private:
+  const TriangleTree& other_;
+  Memory memory_;
 };
-
-/// How far a surface is from another one, edges and insides of faces included.
-/// docs/math.md "Measuring the wall"
-/// `memory`: empty, or of the same vertices at other places and with other faces; then of these.
-Clearance clearanceOf(const Points& vertices, const Faces& faces, const TriangleTree& other,
-                      double horizon, ClearanceMemory* memory = nullptr);
-
-/// The distances alone.
-Vector surfaceDistances(const Points& vertices, const Faces& faces, const Points& otherVertices,
-                        const Faces& otherFaces, double horizon);
 
 } // namespace massprops

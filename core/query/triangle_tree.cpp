@@ -109,7 +109,7 @@ double squaredDistanceOfSegments(const Vec3& p, const Vec3& q, const Vec3& r, co
 
 /// Whether an edge of t goes through the inside of the triangle (a, b, c).
 bool pierces(const Vec3 (&t)[3], const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 normal = (b - a).cross(c - a);
+  const Vec3 normal = areaNormal(a, b, c);
   double side[3];
   for (int k = 0; k < 3; ++k) side[k] = normal.dot(t[k] - a);
   if ((side[0] > 0.0 && side[1] > 0.0 && side[2] > 0.0) ||
@@ -120,8 +120,8 @@ bool pierces(const Vec3 (&t)[3], const Vec3& a, const Vec3& b, const Vec3& c) {
     const int n = (k + 1) % 3;
     if (side[k] * side[n] > 0.0 || side[k] == side[n]) continue;
     const Vec3 at = t[k] + side[k] / (side[k] - side[n]) * (t[n] - t[k]);
-    if (normal.dot((b - a).cross(at - a)) >= 0.0 && normal.dot((c - b).cross(at - b)) >= 0.0 &&
-        normal.dot((a - c).cross(at - c)) >= 0.0) {
+    if (normal.dot(areaNormal(a, b, at)) >= 0.0 && normal.dot(areaNormal(b, c, at)) >= 0.0 &&
+        normal.dot(areaNormal(c, a, at)) >= 0.0) {
       return true;
     }
   }
@@ -180,12 +180,14 @@ double squaredDistanceBelow(double squaredBound, const Vec3 (&s)[3], const Vec3 
 
 std::vector<int> spatialOrder(const Points& vertices, const Faces& faces) {
   std::vector<Centre> centres(static_cast<std::size_t>(faces.rows()));
-  // Relative to the box, for a float has few digits.
-  const Eigen::RowVector3d origin = vertices.rows() > 0
-                                        ? Eigen::RowVector3d(vertices.colwise().minCoeff())
-                                        : Eigen::RowVector3d::Zero();
-  const double size =
-      vertices.rows() > 0 ? (vertices.colwise().maxCoeff() - origin).maxCoeff() : 0.0;
+  // Relative to the box, for a float has few digits. Vertices that no face uses are not looked at:
+  // there may be many more of them than faces.
+  Eigen::AlignedBox3d box;
+  for (Eigen::Index i = 0; i < faces.size(); ++i) {
+    box.extend(Vec3(vertices.row(faces.data()[i]).transpose()));
+  }
+  const Eigen::RowVector3d origin = box.min().transpose();
+  const double size = faces.rows() > 0 ? (box.max() - box.min()).maxCoeff() : 0.0;
   const double scale = size > 0.0 ? 1.0 / size : 0.0;
   for (Eigen::Index f = 0; f < faces.rows(); ++f) {
     const Eigen::RowVector3d sum =
@@ -209,6 +211,18 @@ TriangleTree::TriangleTree(const Points& vertices, const Faces& faces, std::vect
                            Queries queries)
     : vertices_(vertices), faces_(faces), order_(std::move(order)),
       leaves_(leafCount(faces.rows())) {
+  makeBoxes(queries);
+  // A float has 24 digits: so far away that most of them would be spent on the place, boxes are
+  // relative to the surface's middle.
+  constexpr double kFar = 64.0;
+  const Vec3 middle = 0.5 * (lower() + upper());
+  if (middle.cwiseAbs().maxCoeff() > kFar * (upper() - lower()).maxCoeff()) {
+    centre_ = middle;
+    makeBoxes(queries);
+  }
+}
+
+void TriangleTree::makeBoxes(Queries queries) {
   if (queries == Queries::All) triangles_.resize(static_cast<std::size_t>(leaves_));
   std::vector<Box> level(static_cast<std::size_t>(leaves_));
   forChunks(leaves_, kChunk, [&](const Chunk& chunk) {
@@ -242,11 +256,12 @@ TriangleTree::TriangleTree(const Points& vertices, const Faces& faces, std::vect
               std::max(box_.lower.abs().maxCoeff(), box_.upper.abs().maxCoeff());
 }
 
-TriangleTree::Box TriangleTree::around(const Vec3& lower, const Vec3& upper) {
+TriangleTree::Box TriangleTree::around(const Vec3& lower, const Vec3& upper) const {
+  // Differences and floats are rounded without changing an order, so that boxes that meet still do.
   Box box;
   for (int k = 0; k < 3; ++k) {
-    box.lower[k] = below(lower[k]);
-    box.upper[k] = above(upper[k]);
+    box.lower[k] = below(lower[k] - centre_[k]);
+    box.upper[k] = above(upper[k] - centre_[k]);
   }
   return box;
 }
@@ -257,7 +272,7 @@ TrianglePacket TriangleTree::trianglesOf(Eigen::Index leaf) const {
     const Eigen::Index place = std::min(firstPlace(leaf) + i, firstPlace(leaf + 1) - 1);
     if (place < 0) break; // no triangles at all
     const int f = faceAt(place);
-    four.set(i, corner(f, 0), corner(f, 1), corner(f, 2));
+    four.set(i, corner(f, 0) - centre_, corner(f, 1) - centre_, corner(f, 2) - centre_);
   }
   return four;
 }
@@ -358,17 +373,17 @@ TriangleTree::Hit TriangleTree::nearest(const Vec3& p, double squaredBound, int 
   };
   if (hintFace >= 0) visit(hintFace);
   const Box at = around(p, p);
-  visitNearest([&](const FourBoxes& boxes) { return squaredGaps(boxes, at); },
-               [&] { return reach; },
-               [&](Eigen::Index leaf) {
-                 const Lanes atLeast =
-                     triangles_[static_cast<std::size_t>(leaf)].squaredDistances(p, rounding_);
-                 const Eigen::Index begin = firstPlace(leaf);
-                 const Eigen::Index end = firstPlace(leaf + 1);
-                 for (Eigen::Index i = begin; i < end; ++i) {
-                   if (!(static_cast<double>(atLeast[i - begin]) >= reach)) visit(faceAt(i));
-                 }
-               });
+  visitNearest(
+      [&](const FourBoxes& boxes) { return squaredGaps(boxes, at); }, [&] { return reach; },
+      [&](Eigen::Index leaf) {
+        const Lanes atLeast =
+            triangles_[static_cast<std::size_t>(leaf)].squaredDistances(p - centre_, rounding_);
+        const Eigen::Index begin = firstPlace(leaf);
+        const Eigen::Index end = firstPlace(leaf + 1);
+        for (Eigen::Index i = begin; i < end; ++i) {
+          if (!(static_cast<double>(atLeast[i - begin]) >= reach)) visit(faceAt(i));
+        }
+      });
   return best;
 }
 
@@ -381,7 +396,7 @@ double TriangleTree::squaredDistance(const Vec3& a, const Vec3& b, const Vec3& c
                                      double squaredBound) const {
   assert(!triangles_.empty());
   const Vec3 s[3] = {a, b, c};
-  const QueryTriangle query(a, b, c);
+  const QueryTriangle query(a - centre_, b - centre_, c - centre_);
   const Box box = around(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c));
   double least = squaredBound;
   const auto visit = [&](Eigen::Index leaf) {
@@ -407,13 +422,14 @@ double TriangleTree::firstHit(const Vec3& start, const Vec3& direction, double l
   double best = limit;
   const Vec3 inverse = direction.cwiseInverse();
   constexpr double kHuge = std::numeric_limits<double>::max();
+  const Vec3 from = start - centre_;
   const auto entries = [&](const FourBoxes& boxes) -> Eigen::Array4d {
     Eigen::Array4d first = Eigen::Array4d::Zero();
     Eigen::Array4d last = Eigen::Array4d::Constant(best);
     Eigen::Array4d beside = Eigen::Array4d::Zero();
     for (int k = 0; k < 3; ++k) {
-      const Eigen::Array4d lower = boxes.lower[k].cast<double>() - start[k];
-      const Eigen::Array4d upper = boxes.upper[k].cast<double>() - start[k];
+      const Eigen::Array4d lower = boxes.lower[k].cast<double>() - from[k];
+      const Eigen::Array4d upper = boxes.upper[k].cast<double>() - from[k];
       if (direction[k] == 0.0) {
         beside = beside.max(lower).max(-upper);
       } else {
@@ -453,6 +469,17 @@ double TriangleTree::firstHit(const Vec3& start, const Vec3& direction, double l
         for (Eigen::Index i = firstPlace(leaf); i < end; ++i) visit(faceAt(i));
       });
   return best < limit ? best : kInfinity;
+}
+
+Vector chords(const TriangleTree& surface, const Points& points, const Points& directions) {
+  constexpr Eigen::Index kRays = 1024;
+  Vector result(points.rows());
+  forChunks(points.rows(), kRays, [&](const Chunk& chunk) {
+    for (Eigen::Index i = chunk.begin; i < chunk.end; ++i) {
+      result[i] = surface.firstHit(points.row(i).transpose(), directions.row(i).transpose());
+    }
+  });
+  return result;
 }
 
 } // namespace massprops

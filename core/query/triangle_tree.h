@@ -35,8 +35,8 @@ public:
   const Points& vertices() const { return vertices_; }
   const Faces& faces() const { return faces_; }
   /// Corners of a box around the triangles.
-  Vec3 lower() const { return box_.lower.cast<double>(); }
-  Vec3 upper() const { return box_.upper.cast<double>(); }
+  Vec3 lower() const { return box_.lower.matrix().cast<double>() + centre_ - roundedOff(); }
+  Vec3 upper() const { return box_.upper.matrix().cast<double>() + centre_ + roundedOff(); }
 
   struct Hit {
     double squaredDistance = std::numeric_limits<double>::infinity();
@@ -87,7 +87,8 @@ private:
     Lanes lower[3], upper[3];
   };
 
-  static Box around(const Vec3& lower, const Vec3& upper);
+  void makeBoxes(Queries queries);
+  Box around(const Vec3& lower, const Vec3& upper) const;
   Box boxOf(Eigen::Index begin, Eigen::Index end) const;
   TrianglePacket trianglesOf(Eigen::Index leaf) const;
   /// Calls visit(leaf) for the leaves in boxes of which `distances`(four boxes) are below
@@ -102,10 +103,14 @@ private:
   Lanes squaredGaps(const FourBoxes& boxes, const Box& other) const;
   Vec3 corner(int face, int k) const { return vertices_.row(faces_(face, k)).transpose(); }
 
+  /// What a sum with the centre may lose.
+  Vec3 roundedOff() const { return std::numeric_limits<double>::epsilon() * centre_.cwiseAbs(); }
+
   const Points& vertices_;
   const Faces& faces_;
-  std::vector<int> order_;  ///< empty: as given
-  Eigen::Index leaves_ = 1; ///< a power of two
+  std::vector<int> order_;     ///< empty: as given
+  Vec3 centre_ = Vec3::Zero(); ///< that boxes and packets are relative to
+  Eigen::Index leaves_ = 1;    ///< a power of two
   /// The nodes' numbers: the root is 1, the children of i are 2i and 2i + 1. Entry i holds the
   /// boxes of its grandchildren 4i … 4i + 3; every other level is passed over.
   std::vector<FourBoxes> boxes_;
@@ -117,6 +122,10 @@ private:
   float rounding_ = 0.0F;
   static constexpr float kBelowRounding = 1.0F - 2e-6F;
 };
+
+/// Length of the chord from row i of `points` along row i of `directions` (unit) to the first
+/// triangle that does not contain the start, infinity where there is none. n entries.
+Vector chords(const TriangleTree& surface, const Points& points, const Points& directions);
 
 template <class Visit>
 void TriangleTree::forOverlaps(const Vec3& lower, const Vec3& upper, Eigen::Index from,

@@ -1,6 +1,7 @@
 #include "core/reduced/arena_allocator.h"
 
 #include <cstdlib>
+#include <limits>
 #include <unordered_map>
 
 namespace massprops {
@@ -25,6 +26,8 @@ std::size_t rounded(std::size_t bytes) {
 
 ArenaScope::ArenaScope(std::size_t bytes) {
   constexpr std::size_t kLeast = std::size_t{1} << 20U;
+  constexpr std::size_t kMost = std::numeric_limits<std::ptrdiff_t>::max();
+  if (bytes > kMost - kLeast) throw std::bad_alloc();
   bytes += kLeast;
   arena.begin = static_cast<char*>(std::malloc(bytes));
   if (arena.begin == nullptr) throw std::bad_alloc();
@@ -38,6 +41,7 @@ ArenaScope::~ArenaScope() {
 }
 
 void* arenaAllocate(std::size_t bytes) {
+  if (arena.begin == nullptr) throw std::logic_error("nodes come from an arena that has no scope");
   void*& last = arena.freed[bytes];
   if (last != nullptr) {
     void* node = last;
@@ -45,9 +49,7 @@ void* arenaAllocate(std::size_t bytes) {
     return node;
   }
   const std::size_t size = rounded(bytes);
-  if (arena.next == nullptr || static_cast<std::size_t>(arena.end - arena.next) < size) {
-    throw std::bad_alloc();
-  }
+  if (static_cast<std::size_t>(arena.end - arena.next) < size) throw ArenaUsedUp();
   void* node = arena.next;
   arena.next += size;
   return node;

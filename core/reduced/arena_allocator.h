@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <new>
+#include <stdexcept>
 
 namespace massprops {
 
@@ -13,13 +14,21 @@ namespace massprops {
 class ArenaScope {
 public:
   /// `bytes`: size of the block beyond a small constant; untouched memory costs nothing.
+  /// \throw std::bad_alloc when the system does not give so much
   explicit ArenaScope(std::size_t bytes);
   ~ArenaScope();
   ArenaScope(const ArenaScope&) = delete;
   ArenaScope& operator=(const ArenaScope&) = delete;
 };
 
-/// \throw std::bad_alloc when there is no scope or its block is used up
+/// The block of a scope is used up, while the system has memory still.
+class ArenaUsedUp : public std::runtime_error {
+public:
+  ArenaUsedUp() : std::runtime_error("a block of memory of limited size is used up") {}
+};
+
+/// \throw ArenaUsedUp
+/// \throw std::logic_error when there is no scope
 void* arenaAllocate(std::size_t bytes);
 void arenaDeallocate(void* node, std::size_t bytes) noexcept;
 

@@ -1,10 +1,9 @@
 #include "core/reduced/cavity.h"
 
 #include "core/base/parallel.h"
+#include "core/mesh/cgal_mesh.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
-#include <CGAL/Surface_mesh.h>
 
 #include <algorithm>
 #include <optional>
@@ -13,8 +12,7 @@
 namespace massprops {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+using Mesh = SurfaceMesh;
 
 /// Fewer connected faces than this, left over from a larger component, make no cavity worth
 /// printing.
@@ -160,19 +158,24 @@ std::vector<int> cap(const Points& vertices, const Faces& faces, const VertexCor
   std::sort(vertexOf.begin(), vertexOf.end());
   vertexOf.erase(std::unique(vertexOf.begin(), vertexOf.end()), vertexOf.end());
 
-  Mesh mesh;
-  for (const int v : vertexOf) mesh.add_vertex({vertices(v, 0), vertices(v, 1), vertices(v, 2)});
   const auto local = [&](int v) {
-    const auto place = std::lower_bound(vertexOf.begin(), vertexOf.end(), v) - vertexOf.begin();
-    return Mesh::Vertex_index(static_cast<Mesh::size_type>(place));
+    return static_cast<int>(std::lower_bound(vertexOf.begin(), vertexOf.end(), v) -
+                            vertexOf.begin());
   };
-  for (const Eigen::Index f : near) {
-    if (mesh.add_face(local(faces(f, 0)), local(faces(f, 1)), local(faces(f, 2))) ==
-        Mesh::null_face()) {
-      return {};
-    }
+  Points points(static_cast<Eigen::Index>(vertexOf.size()), 3);
+  for (std::size_t i = 0; i < vertexOf.size(); ++i) {
+    points.row(static_cast<Eigen::Index>(i)) = vertices.row(vertexOf[i]);
   }
-  const Mesh::Halfedge_index border = mesh.halfedge(local(loop[0]), local(loop[1]));
+  Faces patch(static_cast<Eigen::Index>(near.size()), 3);
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    patch.row(static_cast<Eigen::Index>(i)) = faces.row(near[i]).unaryExpr(local);
+  }
+  auto mesh = surfaceMesh(points, patch);
+  if (mesh.number_of_faces() < near.size()) return {};
+  const auto vertex = [&](int v) {
+    return Mesh::Vertex_index(static_cast<Mesh::size_type>(local(v)));
+  };
+  const Mesh::Halfedge_index border = mesh.halfedge(vertex(loop[0]), vertex(loop[1]));
   if (!mesh.is_valid(border) || !mesh.is_border(border)) return {};
   std::vector<Mesh::Face_index> added;
   // The least area takes time up to the cube of the border's length: a long border is first tried
@@ -185,9 +188,7 @@ std::vector<int> cap(const Points& vertices, const Faces& faces, const VertexCor
           .do_not_use_cubic_algorithm(loop.size() > kVeryLong));
   std::vector<int> triangles;
   for (const Mesh::Face_index f : added) {
-    for (const Mesh::Vertex_index v : mesh.vertices_around_face(mesh.halfedge(f))) {
-      triangles.push_back(vertexOf[v.idx()]);
-    }
+    for (const int v : cornersOf(mesh, f)) triangles.push_back(vertexOf[at(v)]);
   }
   return triangles;
 }
@@ -240,10 +241,6 @@ CavitySurface cavitySurface(const Points& vertices, const Faces& faces,
     cavity.solid = std::move(solid);
     return cavity;
   }
-}
-
-CavitySurface cavitySurface(const Points& vertices, const Faces& faces, std::vector<char> solid) {
-  return cavitySurface(vertices, faces, vertexCorners(vertices.rows(), faces), std::move(solid));
 }
 
 } // namespace massprops

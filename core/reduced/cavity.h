@@ -21,9 +21,8 @@ struct CavitySurface {
 /// border vertices, least in area at the given positions. Marks more vertices where that is needed
 /// to keep the surface manifold or where only slivers would be left.
 /// `vertices`: n×3 positions of the inner surface; `solid`: n marks.
-/// `corners`: those of `faces`, for callers that have them.
+/// `corners`: those of `faces`.
 CavitySurface cavitySurface(const Points& vertices, const Faces& faces,
                             const VertexCorners& corners, std::vector<char> solid);
-CavitySurface cavitySurface(const Points& vertices, const Faces& faces, std::vector<char> solid);
 
 } // namespace massprops

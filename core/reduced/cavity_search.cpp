@@ -2,6 +2,7 @@
 
 #include "core/base/parallel.h"
 #include "core/base/stopwatch.h"
+#include "core/base/tolerances.h"
 #include "core/base/triangle.h"
 #include "core/mesh/lipschitz.h"
 #include "core/mesh/vertex_adjacency.h"
@@ -39,7 +40,6 @@ constexpr int kMostDoublings = 6;
 constexpr double kUnwanted = 0.75;
 constexpr double kUnwantedWidth = 3.0;
 constexpr double kLeastGain = 0.6;
-constexpr double kFeasibility = 1e-6;
 /// Of what a cavity could gain over the solid; below, another start is not worth its time.
 constexpr double kFarGap = 0.05;
 /// How far the cavity retreats from a cap that folds, in walls.
@@ -223,14 +223,14 @@ bool closesOpening(const CavityTask& task, const std::vector<char>& solid) {
 }
 
 Inspection inspectResult(const CavityTask& task, const CavityResult& result, LookFirst first,
-                         ClearanceMemory& memory) {
+                         ClearanceQuery& clearance) {
   const Faces& cavity = result.cavity.faces;
   if (task.open != nullptr) return inspectShell(result.inner, cavity, task.surface, task.wall);
   if (task.model.outer) {
     const TriangleTree moved(result.outer, task.surface.faces(), TriangleTree::Order::Spatial);
     return inspect(result.inner, cavity, moved, task.wall, true, first);
   }
-  return inspect(result.inner, cavity, task.surface, task.wall, false, first, &memory);
+  return inspect(result.inner, cavity, task.surface, task.wall, false, first, &clearance);
 }
 
 /// One search from the middle of the bounds to a cavity that passes inspection, in rounds.
@@ -282,7 +282,7 @@ private:
   bool fillUnwanted_;
   bool mayTrim_ = true;
   LookFirst first_ = LookFirst::ForAll;
-  ClearanceMemory memory_;
+  ClearanceQuery clearance_;
   CavityResult result_;
 };
 
@@ -293,7 +293,8 @@ CavitySearch::CavitySearch(const CavityTask& task, double freedom,
       cavityFaces_(task.open != nullptr ? task.open->cavity : facesOf(task)),
       corners_(vertexCorners(positionCount(task), cavityFaces_)), model_(task.model),
       bounds_(task.model.inner), solid_(tooThin(task.model.field, bounds_)),
-      thinRounds_(solid_.size(), 0), goal_(&task.goal), fillUnwanted_(freedom > 0.0) {
+      thinRounds_(solid_.size(), 0), goal_(&task.goal), fillUnwanted_(freedom > 0.0),
+      clearance_(task.surface) {
   solid_.resize(static_cast<std::size_t>(positionCount(task)), 0);
   bounds_.lower = lipschitzAbove(verticesOf(task), neighbours_,
                                  bounds_.lower.cwiseMin(bounds_.upper), kBoundSlope);
@@ -428,7 +429,7 @@ void CavitySearch::placeAndInspect() {
   if (model_.outer) result_.outer = task_.deliverable(surfaces_.outer);
   result_.innerOffsets = std::move(surfaces_.innerOffsets);
   result_.outerOffsets = std::move(surfaces_.outerOffsets);
-  result_.inspection = inspectResult(task_, result_, first_, memory_);
+  result_.inspection = inspectResult(task_, result_, first_, clearance_);
   // What was all that was wrong mostly is all that is wrong next time.
   const bool isWithoutFolds =
       result_.inspection.crossing.empty() && result_.inspection.outerCrossing.empty();

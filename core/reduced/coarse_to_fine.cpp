@@ -35,7 +35,7 @@ Faces clustered(const Faces& faces, const std::vector<int>& vertexFor) {
 MinimizeResult minimizeCoarseToFine(const OffsetModel& model, const Goal& goal,
                                     const Weights& weights, const Vector& start,
                                     const MinimizeOptions& options) {
-  const Proxy& carrier = model.surface->carrier;
+  const DecimatedMesh& carrier = model.surface->carrier;
   auto surface = std::make_shared<MovingSurface>();
   surface->vertices = rowsOf(model.surface->vertices, carrier.vertexOf);
   surface->basis = model.surface->basis;

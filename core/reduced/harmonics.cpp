@@ -15,6 +15,13 @@ namespace massprops {
 namespace {
 
 constexpr Eigen::Index kDenseSize = 256;
+/// Of the mean: a vertex around which there is no area would make the problem singular.
+constexpr double kLeastMass = 1e-6;
+
+[[noreturn]] void throwUnconverged() {
+  throw std::runtime_error("the harmonic basis did not converge: lower basis_k, or use "
+                           "Remeshing > Isotropic Explicit Remeshing, then run again");
+}
 
 /// The generalised problem as a standard one, A = M^{-1/2} L M^{-1/2}; Spectra asks for
 /// y = (A − σ)⁻¹ x = M^{1/2} (L − σM)⁻¹ M^{1/2} x.
@@ -95,10 +102,7 @@ Modes lowestModes(ShiftInvertedLaplacian& op, int k, double shift) {
   solver.init();
   constexpr double kTolerance = 1e-9;
   solver.compute(Spectra::SortRule::LargestMagn, 1000, kTolerance, Spectra::SortRule::SmallestAlge);
-  if (solver.info() != Spectra::CompInfo::Successful) {
-    throw std::runtime_error("the harmonic basis did not converge: lower basis_k, or use "
-                             "Remeshing > Isotropic Explicit Remeshing, then run again");
-  }
+  if (solver.info() != Spectra::CompInfo::Successful) throwUnconverged();
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
@@ -107,6 +111,7 @@ Modes lowestModesDense(const SparseMatrix& L, const Vector& mass, int k) {
   const Vector scale = mass.cwiseSqrt().cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<Matrix> solver(
       Matrix(scale.asDiagonal() * Matrix(L) * scale.asDiagonal()));
+  if (solver.info() != Eigen::Success) throwUnconverged();
   return {solver.eigenvalues().head(k), solver.eigenvectors().leftCols(k)};
 }
 
@@ -145,9 +150,9 @@ Modes lowestModesWithCopies(const SparseMatrix& L, const Vector& mass, int k, do
   return modes;
 }
 
-} // namespace
-
-HarmonicBasis harmonicBasis(const SparseMatrix& L, const Vector& mass, int k) {
+/// Of one component.
+HarmonicBasis basisOf(const SparseMatrix& L, const Vector& area, int k) {
+  const Vector mass = area.cwiseMax(kLeastMass * area.mean());
   // L is singular; a shift of a tenth of the smallest possible eigenvalue scale 1/total mass keeps
   // the factorisation regular without costing accuracy.
   const double shift = -0.1 / mass.sum();
@@ -164,10 +169,12 @@ HarmonicBasis harmonicBasis(const SparseMatrix& L, const Vector& mass, int k) {
   return basis;
 }
 
+} // namespace
+
 HarmonicBasis harmonicBasis(const Points& vertices, const Faces& faces, const SparseMatrix& L,
                             const Vector& mass, int k) {
-  const Components components = connectedComponents(vertices.rows(), faces);
-  if (components.size() == 1) return harmonicBasis(L, mass, k);
+  const std::vector<Submesh> parts = componentMeshes(vertices, faces);
+  if (parts.size() == 1) return basisOf(L, mass, k);
   struct Mode {
     double eigenvalue;
     std::size_t component;
@@ -175,16 +182,14 @@ HarmonicBasis harmonicBasis(const Points& vertices, const Faces& faces, const Sp
   };
   std::vector<Mode> modes;
   std::vector<HarmonicBasis> bases;
-  std::vector<Submesh> parts;
-  for (const Faces& faceRows : components) {
-    const Submesh& part = parts.emplace_back(submesh(vertices, faceRows));
+  for (const Submesh& part : parts) {
     Vector partMass(part.mesh.vertices.rows());
     for (std::size_t i = 0; i < part.vertexOf.size(); ++i) {
       partMass[static_cast<Eigen::Index>(i)] = mass[part.vertexOf[i]];
     }
     const int most = static_cast<int>(part.mesh.vertices.rows()) - 1;
-    bases.push_back(harmonicBasis(cotanLaplacian(part.mesh.vertices, part.mesh.faces), partMass,
-                                  std::min(k, most)));
+    bases.push_back(
+        basisOf(cotanLaplacian(part.mesh.vertices, part.mesh.faces), partMass, std::min(k, most)));
     for (Eigen::Index j = 0; j < bases.back().eigenvalues.size(); ++j) {
       modes.push_back({bases.back().eigenvalues[j], bases.size() - 1, j});
     }

@@ -15,15 +15,12 @@ struct HarmonicBasis {
 
 /// The k manifold harmonics of lowest frequency. With M scaled to total 1 the functions are of
 /// order one and the eigenvalues dimensionless, whatever the unit of length. [VL08]
-/// L: n×n positive semidefinite with the constants as kernel; mass: n positive entries.
-/// The sign of each function is such that its entry of largest magnitude is positive.
+/// L: n×n, the surface's `cotanLaplacian`; mass: n entries, where those below a millionth of the
+/// mean count as that. The sign of each function is such that its entry of largest magnitude is
+/// positive. Each component is solved on its own, for an eigenvalue as often as there are
+/// components is hard to find; the k lowest of all are kept.
 /// \pre 1 ≤ k < n
 /// \throw std::runtime_error when the eigensolver does not converge
-HarmonicBasis harmonicBasis(const SparseMatrix& L, const Vector& mass, int k);
-
-/// The same of a surface with several components, whose constants span the kernel together. Each
-/// component is solved on its own, for an eigenvalue as often as there are components is hard to
-/// find; the k lowest of all are kept.
 HarmonicBasis harmonicBasis(const Points& vertices, const Faces& faces, const SparseMatrix& L,
                             const Vector& mass, int k);
 

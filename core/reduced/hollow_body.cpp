@@ -1,15 +1,11 @@
 #include "core/reduced/hollow_body.h"
 
+#include "core/base/tolerances.h"
+
 #include <algorithm>
 #include <memory>
 
 namespace massprops {
-namespace {
-
-/// Constraints hold when they are violated by no more than this share of the model's size.
-constexpr double kFeasibility = 1e-6;
-
-} // namespace
 
 Body inputBody(const CavityTask& task) {
   Body body;

@@ -16,14 +16,14 @@ constexpr double kDiffusionLength = 0.02;
 
 /// What moves inwards is as fine as a cavity has to be: on finer ones, the objective does not
 /// improve by more than the one or two per cent that it scatters by. In working lengths.
-constexpr Coarseness kMoving{12000, 3000, 1.5e-4};
+constexpr DecimationTarget kMoving{12000, 3000, 1.5e-4};
 
 /// Skeleton and basis are smooth: their carrier leads to cavities as good as the whole surface does
 /// (benchmarks/results.md).
-constexpr Coarseness kCarrier{2400, 600, 3e-4};
+constexpr DecimationTarget kCarrier{2400, 600, 3e-4};
 
 /// A function of the basis needs a few vertices to have a shape.
-Coarseness carrying(int basisSize, const Coarseness& wanted) {
+DecimationTarget carrying(int basisSize, const DecimationTarget& wanted) {
   constexpr Eigen::Index kVerticesAFunction = 4;
   const Eigen::Index needed = kVerticesAFunction * basisSize;
   return {std::max(wanted.most, needed), std::max(wanted.least, needed), wanted.distance};
@@ -34,14 +34,15 @@ Coarseness carrying(int basisSize, const Coarseness& wanted) {
 Coarsening coarsen(const PosedModel& posed, const CoarseningOptions& options,
                    const std::function<void()>& whenCopied, const std::function<void()>& beside) {
   const Stopwatch copying;
-  const Coarseness whole{posed.vertices.rows(), posed.vertices.rows(), 0.0};
-  CoarseCopy copy = coarseCopy(posed.vertices, posed.faces,
-                               options.isDecimated ? carrying(options.basisSize, kMoving) : whole);
+  const DecimationTarget whole{posed.vertices.rows(), posed.vertices.rows(), 0.0};
+  DecimatedMesh copy =
+      decimated(posed.vertices, posed.faces,
+                options.isDecimated ? carrying(options.basisSize, kMoving) : whole);
   auto moving = std::make_shared<MovingSurface>();
   moving->vertices = std::move(copy.mesh.vertices);
   moving->faces = std::move(copy.mesh.faces);
   moving->carrier =
-      makeProxy(moving->vertices, moving->faces,
+      decimated(moving->vertices, moving->faces,
                 options.isCarrierCoarse ? carrying(options.basisSize, kCarrier) : whole);
   Coarsening result;
   result.vertexOf = std::move(copy.vertexOf);

@@ -3,6 +3,7 @@
 
 #include "core/base/types.h"
 #include "core/mesh/decimation.h"
+#include "core/mesh/interpolation.h"
 #include "core/model/posed_model.h"
 #include "core/reduced/harmonics.h"
 #include "core/reduced/laplacian.h"
@@ -26,7 +27,7 @@ struct MovingSurface {
   /// From the carrier's vertices to these, n×p.
   Interpolation interpolation = Interpolation::identity(0);
   /// The coarser copy that carries the smooth functions.
-  Proxy carrier = {};
+  DecimatedMesh carrier = {};
   /// n×n cotangent Laplacian; empty where the smoothness of the offsets has no weight.
   SparseMatrix laplacian = {};
 };

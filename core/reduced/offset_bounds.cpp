@@ -1,6 +1,7 @@
 #include "core/reduced/offset_bounds.h"
 
 #include "core/base/parallel.h"
+#include "core/base/tolerances.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,6 @@ namespace {
 constexpr double kLeastClearance = 0.05;
 /// Offsets need some room to be worth a cavity: a share of the greatest one.
 constexpr double kLeastRoom = 0.02;
-constexpr double kContactHeight = 1e-4;
 /// What a vertex keeps of its height above the ground, lest it widen the contact area.
 constexpr double kLeastHeight = 0.5;
 constexpr double kWallSlack = 1e-3;

@@ -5,7 +5,7 @@
 #include "core/mesh/connectivity.h"
 #include "core/mesh/lipschitz.h"
 #include "core/mesh/vertex_adjacency.h"
-#include "core/query/surface_distance.h"
+#include "core/query/triangle_tree.h"
 
 #include <Eigen/SparseCholesky>
 
@@ -131,11 +131,6 @@ OffsetField offsetField(const Points& vertices, const Faces& faces, const Points
   field.reach = lipschitzBelow(vertices, vertexAdjacency(vertices.rows(), faces),
                                field.reach.cwiseMin(kShareOfChord * through), kReachSlope);
   return field;
-}
-
-OffsetField offsetField(const Points& vertices, const Faces& faces, const Points& skeleton,
-                        const SparseMatrix& L, const Vector& mass, double diffusionLength) {
-  return offsetField(vertices, faces, smoothedOverSurface(skeleton, L, mass, diffusionLength));
 }
 
 } // namespace massprops

@@ -20,25 +20,22 @@ struct OffsetField {
   Vector meanClearance;
 };
 
-/// Makes the raw skeleton correspondence fit for offsetting (docs/math.md "Offset directions"):
-/// 1. The skeleton points are smoothed over the surface, (M + t²L) s' = M s.
-/// 2. Directions outside of the cone of the faces around their vertex are turned into it.
-/// 3. The reach ends half-way through the body and varies no faster than the surface does.
-/// `skeleton`: n×3. `diffusionLength` t: same unit as the vertices, > 0.
-OffsetField offsetField(const Points& vertices, const Faces& faces, const Points& skeleton,
-                        const SparseMatrix& L, const Vector& mass, double diffusionLength);
-
 /// A direction counts as inside of its vertex's cone when n_f·d is at least this much for all its
 /// faces. Slanted ones keep near to the skeleton; steep ones hollow bumps and the ends of limbs
 /// out, where slanted offsets leave walls that are too thick.
 constexpr double kSlantedClearance = 0.3;
 constexpr double kSteepClearance = 0.6;
 
-/// Steps 2 and 3, with skeleton points that are smooth already.
+/// Makes a skeleton's correspondence that is smooth over the surface fit for offsetting
+/// (docs/math.md "Offset directions"): directions outside of the cone of the faces around their
+/// vertex are turned into it, and the reach ends half-way through the body and varies no faster
+/// than the surface does. `axis`: n×3, see `smoothedOverSurface`.
 OffsetField offsetField(const Points& vertices, const Faces& faces, const Points& axis,
                         double wantedClearance = kSlantedClearance);
 
-/// Step 1. `values`: n×3.
+/// The values spread over the surface, (M + t²L) s' = M s. `values`: n×3; `length` t > 0: same unit
+/// as the vertices.
+/// \throw std::runtime_error when the system cannot be solved
 Points smoothedOverSurface(const Points& values, const SparseMatrix& L, const Vector& mass,
                            double length);
 

@@ -1,9 +1,10 @@
 #include "core/reduced/skeleton.h"
 
 #include "core/base/parallel.h"
+#include "core/base/triangle.h"
 #include "core/mesh/components.h"
 #include "core/query/point_in_mesh.h"
-#include "core/query/surface_distance.h"
+#include "core/query/triangle_tree.h"
 #include "core/reduced/arena_allocator.h"
 
 // The skeletonisation orders its edges by their address [CGAL issue 7511], and its mesh type takes
@@ -13,11 +14,13 @@
 #undef CGAL_ALLOCATOR
 #define CGAL_ALLOCATOR(T) std::allocator<T>
 
+#include "core/mesh/cgal_mesh.h"
+
 #include <CGAL/Mean_curvature_flow_skeletonization.h>
 #include <CGAL/Simple_cartesian.h>
-#include <CGAL/Surface_mesh.h>
 
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -83,12 +86,13 @@ std::vector<char> areInside(const std::vector<Vec3>& poles, const HalfedgeMesh& 
   }
   const TriangleTree tree(surface.vertices, surface.faces, TriangleTree::Order::Any,
                           TriangleTree::Queries::NoDistances);
+  const PointInMesh inside(tree);
   std::vector<char> answers(poles.size());
   constexpr Eigen::Index kChunk = 64;
   forChunks(static_cast<Eigen::Index>(poles.size()), kChunk, [&](const Chunk& chunk) {
     for (auto i = static_cast<std::size_t>(chunk.begin); i < static_cast<std::size_t>(chunk.end);
          ++i) {
-      answers[i] = poles[i].allFinite() && isInside(poles[i], tree) ? 1 : 0;
+      answers[i] = poles[i].allFinite() && inside.contains(poles[i]) ? 1 : 0;
     }
   });
   return answers;
@@ -128,22 +132,6 @@ namespace {
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using Skeletonization = CGAL::Mean_curvature_flow_skeletonization<Mesh, FlowKernel>;
 
-Mesh cgalMesh(const Points& vertices, const Faces& faces) {
-  Mesh mesh;
-  const auto n = static_cast<Mesh::size_type>(vertices.rows());
-  const auto m = static_cast<Mesh::size_type>(faces.rows());
-  mesh.reserve(n, n + m, m);
-  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
-    mesh.add_vertex({vertices(v, 0), vertices(v, 1), vertices(v, 2)});
-  }
-  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
-    mesh.add_face(Mesh::Vertex_index(static_cast<Mesh::size_type>(faces(f, 0))),
-                  Mesh::Vertex_index(static_cast<Mesh::size_type>(faces(f, 1))),
-                  Mesh::Vertex_index(static_cast<Mesh::size_type>(faces(f, 2))));
-  }
-  return mesh;
-}
-
 /// Edges that are shorter collapse while the flow contracts the surface, of the diagonal.
 constexpr double kLeastEdge = 0.005;
 
@@ -162,12 +150,13 @@ double diagonalOf(const Points& vertices) {
 }
 
 /// Of one component.
-/// \throw std::exception when the flow does not come to an end or loses a vertex
+/// \throw std::runtime_error or CGAL::Failure_exception when the flow does not come to an end or
+/// loses a vertex
 Points contractedPoints(const Points& vertices, const Faces& faces, std::size_t bytesPerVertex) {
   const ArenaScope arena(bytesPerVertex * static_cast<std::size_t>(vertices.rows()));
   poleAnswers = {};
   poleAnswers.poleCount = static_cast<std::size_t>(vertices.rows());
-  const Mesh mesh = cgalMesh(vertices, faces);
+  const auto mesh = surfaceMesh<Mesh>(vertices, faces);
   Skeletonization::Skeleton skeleton;
   {
     Skeletonization flow(mesh);
@@ -194,10 +183,8 @@ Points contractedPoints(const Points& vertices, const Faces& faces, std::size_t 
 Points halfWayThrough(const Points& vertices, const Faces& faces) {
   Points inward = Points::Zero(vertices.rows(), 3);
   for (Eigen::Index f = 0; f < faces.rows(); ++f) {
-    const Vec3 a = vertices.row(faces(f, 0)).transpose();
-    const Vec3 b = vertices.row(faces(f, 1)).transpose();
-    const Vec3 c = vertices.row(faces(f, 2)).transpose();
-    for (const int v : faces.row(f)) inward.row(v) -= (b - a).cross(c - a).transpose();
+    const Eigen::RowVector3d normal = areaNormal(vertices, faces, f).transpose();
+    for (const int v : faces.row(f)) inward.row(v) -= normal;
   }
   inward.rowwise().normalize();
   const TriangleTree tree(vertices, faces, TriangleTree::Order::Any,
@@ -206,22 +193,31 @@ Points halfWayThrough(const Points& vertices, const Faces& faces) {
   return vertices + half.asDiagonal() * inward;
 }
 
+/// The skeleton points, or none where the flow fails. What else goes wrong, a lack of memory or a
+/// mistake of this file, is no failure of the flow and passes.
+std::optional<Points> contractedOrNone(const TriangleMesh& component, std::size_t bytesPerVertex) {
+  try {
+    return contractedPoints(component.vertices, component.faces, bytesPerVertex);
+  } catch (const std::runtime_error&) { // among them `ArenaUsedUp`
+    return std::nullopt;
+  } catch (const CGAL::Failure_exception&) {
+    return std::nullopt;
+  }
+}
+
 } // namespace
 
 Skeleton meanCurvatureSkeleton(const Points& vertices, const Faces& faces,
                                std::size_t flowBytesPerVertex) {
   Skeleton skeleton{Points(vertices.rows(), 3), 0};
-  for (const Faces& component : connectedComponents(vertices.rows(), faces)) {
-    const Submesh part = submesh(vertices, component);
-    Points points;
-    try {
-      points = contractedPoints(part.mesh.vertices, part.mesh.faces, flowBytesPerVertex);
-    } catch (const std::exception&) {
+  for (const Submesh& part : componentMeshes(vertices, faces)) {
+    std::optional<Points> points = contractedOrNone(part.mesh, flowBytesPerVertex);
+    if (!points) {
       points = halfWayThrough(part.mesh.vertices, part.mesh.faces);
       ++skeleton.failedComponents;
     }
     for (std::size_t i = 0; i < part.vertexOf.size(); ++i) {
-      skeleton.points.row(part.vertexOf[i]) = points.row(static_cast<Eigen::Index>(i));
+      skeleton.points.row(part.vertexOf[i]) = points->row(static_cast<Eigen::Index>(i));
     }
   }
   return skeleton;

@@ -21,6 +21,7 @@ constexpr std::size_t kFlowBytesPerVertex = 2048;
 
 /// Contracts every connected component under mean curvature flow, medially centred. [TAOZ12]
 /// Two calls with the same coordinates give the same bytes, whatever the program did before.
+/// \throw std::bad_alloc when there is no memory for the flow
 /// \pre closed 2-manifolds with coordinates of order one and far fewer digits than a double has
 /// (see `snapped`)
 Skeleton meanCurvatureSkeleton(const Points& vertices, const Faces& faces,

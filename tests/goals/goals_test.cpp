@@ -12,6 +12,7 @@
 
 #include "goals/goal_checks.h"
 #include "shapes.h"
+#include "translated_moments.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,8 @@
-// A coarse copy carries smooth functions, keeps the surface's topology, and nothing depends on the
-// number of threads.
+// A decimated surface keeps the topology, about the shape, and depends on no number of threads.
 #include "core/mesh/decimation.h"
 
-#include "core/base/parallel.h"
 #include "core/mesh/components.h"
 #include "core/physics/moments.h"
-#include "core/pipeline.h"
-#include "core/query/self_intersection.h"
 #include "judge/checks.h"
 #include "shapes.h"
 #include "thread_count.h"
@@ -14,8 +10,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <stdexcept>
 #include <vector>
 
 namespace massprops::testing {
@@ -25,32 +19,41 @@ Eigen::Index eulerCharacteristic(const TriangleMesh& mesh) {
   return mesh.vertices.rows() - mesh.faces.rows() / 2; // closed: 3 faces have 2 edges each
 }
 
-TEST(Proxy, HasTheSizeAskedForAndTheTopologyOfTheSurface) {
+TEST(DecimatedMesh, HasTheSizeAskedForAndTheTopologyOfTheSurface) {
   for (const TriangleMesh& mesh :
        {sphere(40), torus(1, 0.3, 120, 60),
         joined(sphere(20), transformed(sphere(20), Mat3::Identity(), {3, 0, 0}))}) {
-    const Proxy proxy = makeProxy(mesh.vertices, mesh.faces, {600, 600, 0.0});
-    EXPECT_EQ(proxy.mesh.vertices.rows(), 600);
-    EXPECT_TRUE(isClosedAndOriented(proxy.mesh));
-    EXPECT_EQ(eulerCharacteristic(proxy.mesh), eulerCharacteristic(mesh));
-    EXPECT_EQ(connectedComponents(600, proxy.mesh.faces).size(),
+    const DecimatedMesh coarse = decimated(mesh.vertices, mesh.faces, {600, 600, 0.0});
+    EXPECT_EQ(coarse.mesh.vertices.rows(), 600);
+    EXPECT_TRUE(isClosedAndOriented(coarse.mesh));
+    EXPECT_EQ(eulerCharacteristic(coarse.mesh), eulerCharacteristic(mesh));
+    EXPECT_EQ(connectedComponents(600, coarse.mesh.faces).size(),
               connectedComponents(mesh.vertices.rows(), mesh.faces).size());
   }
 }
 
-TEST(Proxy, IsTheSurfaceItselfWhereThatIsCoarse) {
+TEST(DecimatedMesh, IsTheSurfaceItselfWhereThatIsCoarse) {
   const TriangleMesh mesh = blob(8);
-  const Proxy proxy = makeProxy(mesh.vertices, mesh.faces, {600, 600, 0.0});
-  EXPECT_EQ(proxy.mesh.vertices, mesh.vertices);
-  EXPECT_TRUE(interpolationFrom(proxy, mesh.vertices).isIdentity());
+  const DecimatedMesh coarse = decimated(mesh.vertices, mesh.faces, {600, 600, 0.0});
+  EXPECT_EQ(coarse.mesh.vertices, mesh.vertices);
+  EXPECT_TRUE(coarse.isWhole());
 }
 
-TEST(Proxy, HasVerticesOfTheSurfaceAndNearlyItsVolume) {
+TEST(DecimatedMesh, HasVerticesOfTheSurfaceAndNearlyItsVolume) {
   const TriangleMesh mesh = blob(40);
-  const CoarseCopy copy = coarseCopy(mesh.vertices, mesh.faces, {1000, 1000, 0.0});
+  const DecimatedMesh copy = decimated(mesh.vertices, mesh.faces, {1000, 1000, 0.0});
+  ASSERT_EQ(copy.vertexFor.size(), static_cast<std::size_t>(mesh.vertices.rows()));
   for (std::size_t i = 0; i < copy.vertexOf.size(); ++i) {
     EXPECT_EQ(copy.mesh.vertices.row(static_cast<Eigen::Index>(i)),
               mesh.vertices.row(copy.vertexOf[i]));
+    EXPECT_EQ(copy.vertexFor[static_cast<std::size_t>(copy.vertexOf[i])], static_cast<int>(i));
+  }
+  // A vertex falls together with one that is a few edges of the copy away at most.
+  for (std::size_t v = 0; v < copy.vertexFor.size(); ++v) {
+    EXPECT_LT((copy.mesh.vertices.row(copy.vertexFor[v]) -
+               mesh.vertices.row(static_cast<Eigen::Index>(v)))
+                  .norm(),
+              0.5);
   }
   // Edges of length 0.13 on curvatures of about 1 cut off 1/8·0.13² of the radius.
   EXPECT_NEAR(moments(copy.mesh.vertices, copy.mesh.faces)[0] /
@@ -58,9 +61,9 @@ TEST(Proxy, HasVerticesOfTheSurfaceAndNearlyItsVolume) {
               1.0, 0.01);
 }
 
-TEST(CoarseCopy, IsAsCoarseAsTheDistanceAllows) {
+TEST(DecimatedMesh, IsAsCoarseAsTheDistanceAllows) {
   const auto sizeOf = [](const TriangleMesh& mesh, double distance) {
-    return coarseCopy(mesh.vertices, mesh.faces, {4000, 300, distance}).mesh.vertices.rows();
+    return decimated(mesh.vertices, mesh.faces, {4000, 300, distance}).mesh.vertices.rows();
   };
   // The sides of a box lose nothing.
   EXPECT_EQ(sizeOf(box({1, 1, 1}, 40), 1e-9), 300);
@@ -73,25 +76,25 @@ TEST(CoarseCopy, IsAsCoarseAsTheDistanceAllows) {
   EXPECT_NEAR(fine / coarse, 4.0, 1.0);
 }
 
-TEST(CoarseCopy, IsTheSameWithAnyNumberOfThreads) {
+TEST(DecimatedMesh, IsTheSameWithAnyNumberOfThreads) {
   // Numbered along the ring, so that both halves are thinned out at once.
   const TriangleMesh ring = torus(2, 0.5, 400, 100);
   const auto copy = [&](int threads) {
     const ThreadCount count(threads);
-    return coarseCopy(ring.vertices, ring.faces, {1500, 1500, 0.0});
+    return decimated(ring.vertices, ring.faces, {1500, 1500, 0.0});
   };
-  const CoarseCopy one = copy(1);
+  const DecimatedMesh one = copy(1);
   EXPECT_EQ(one.mesh.vertices.rows(), 1500);
   EXPECT_TRUE(isClosedAndOriented(one.mesh));
   EXPECT_EQ(eulerCharacteristic(one.mesh), 0);
   for (const int threads : {2, 4}) {
-    const CoarseCopy other = copy(threads);
+    const DecimatedMesh other = copy(threads);
     EXPECT_EQ(one.mesh.faces, other.mesh.faces);
     EXPECT_EQ(one.vertexOf, other.vertexOf);
   }
 }
 
-TEST(CoarseCopy, HasTheSizeAskedForWhateverTheNumbersOfTheVertices) {
+TEST(DecimatedMesh, HasTheSizeAskedForWhateverTheNumbersOfTheVertices) {
   // Every vertex has neighbours in the other half.
   TriangleMesh ring = torus(2, 0.5, 400, 100);
   const auto n = static_cast<int>(ring.vertices.rows());
@@ -99,14 +102,14 @@ TEST(CoarseCopy, HasTheSizeAskedForWhateverTheNumbersOfTheVertices) {
   const Points before = ring.vertices;
   for (int v = 0; v < n; ++v) ring.vertices.row(number(v)) = before.row(v);
   ring.faces = ring.faces.unaryExpr(number).eval();
-  const CoarseCopy copy = coarseCopy(ring.vertices, ring.faces, {1500, 1500, 0.0});
+  const DecimatedMesh copy = decimated(ring.vertices, ring.faces, {1500, 1500, 0.0});
   EXPECT_EQ(copy.mesh.vertices.rows(), 1500);
   EXPECT_EQ(eulerCharacteristic(copy.mesh), 0);
 }
 
-TEST(CoarseCopy, HasFewSliversAlsoOfVeryFineSurfaces) {
+TEST(DecimatedMesh, HasFewSliversAlsoOfVeryFineSurfaces) {
   const TriangleMesh fine = blob(150); // 225,000 vertices
-  const TriangleMesh copy = coarseCopy(fine.vertices, fine.faces, {3000, 3000, 0.0}).mesh;
+  const TriangleMesh copy = decimated(fine.vertices, fine.faces, {3000, 3000, 0.0}).mesh;
   EXPECT_EQ(copy.vertices.rows(), 3000);
   Eigen::Index slivers = 0;
   for (Eigen::Index f = 0; f < copy.faces.rows(); ++f) {
@@ -120,83 +123,6 @@ TEST(CoarseCopy, HasFewSliversAlsoOfVeryFineSurfaces) {
     slivers += edge(0).cross(edge(1)).norm() < 0.2 * longest ? 1 : 0;
   }
   EXPECT_LE(slivers, copy.faces.rows() / 50);
-}
-
-TEST(Interpolation, ReproducesConstantsAndNearlyThePositions) {
-  const TriangleMesh mesh = blob(40);
-  const Proxy proxy = makeProxy(mesh.vertices, mesh.faces, {1000, 1000, 0.0});
-  const Interpolation interpolation = interpolationFrom(proxy, mesh.vertices);
-  const Vector ones = interpolation * Vector(Vector::Ones(1000));
-  EXPECT_LT((ones.array() - 1.0).abs().maxCoeff(), 1e-14);
-  const Points positions = interpolation * proxy.mesh.vertices;
-  // A few times the depth of an arc over an edge.
-  EXPECT_LT((positions - mesh.vertices).rowwise().norm().maxCoeff(), 0.02);
-}
-
-TEST(Interpolation, HasTheTransposeOfItself) {
-  const TriangleMesh mesh = blob(40);
-  const Proxy proxy = makeProxy(mesh.vertices, mesh.faces, {1000, 1000, 0.0});
-  Random random(5);
-  const Vector coarse = random.vector(1000);
-  const Vector fine = random.vector(mesh.vertices.rows());
-  const Interpolation interpolation = interpolationFrom(proxy, mesh.vertices);
-  const Matrix back = interpolation.transposeTimes(fine);
-  // Rounding of 16,000 terms of order one.
-  EXPECT_NEAR(fine.dot(interpolation * coarse), back.col(0).dot(coarse), 1e-10);
-}
-
-// ---------------------------------------------------------------- threads
-
-TEST(Threads, DoNotChangeASingleBitOfTheCavity) {
-  // Large enough for a coarse copy and a proxy of it.
-  const TriangleMesh mesh = transformed(blob(38), someRotation());
-  Options options;
-  options.radiusX = options.radiusY = 0.5;
-  const auto cavity = [&](int threads) {
-    const ThreadCount count(threads);
-    return optimizeMassProperties(mesh, options).inner;
-  };
-  const TriangleMesh one = cavity(1);
-  ASSERT_GT(one.faces.rows(), 0);
-  for (const int threads : {2, 4}) {
-    const TriangleMesh other = cavity(threads);
-    EXPECT_EQ(one.vertices, other.vertices);
-    EXPECT_EQ(one.faces, other.faces);
-  }
-}
-
-// ---------------------------------------------------------------- crossings
-
-TEST(SelfIntersections, AreThoseThatAllPairsHaveAlsoOnWrinkledSurfaces) {
-  // From smooth, where whole patches are proved at once, to crumpled, where nearly none is.
-  int crossingOnes = 0;
-  for (const double wrinkle : {0.0, 0.02, 0.05, 0.08, 0.15, 0.3}) {
-    for (std::uint32_t seed = 1; seed <= 4; ++seed) {
-      const TriangleMesh mesh = jittered(blob(10), wrinkle, seed);
-      const bool crosses = intersectingPairs(mesh) > 0;
-      EXPECT_EQ(!selfIntersectingFaces(mesh.vertices, mesh.faces).empty(), crosses) << wrinkle;
-      crossingOnes += crosses ? 1 : 0;
-    }
-  }
-  EXPECT_GT(crossingOnes, 4);
-  EXPECT_LT(crossingOnes, 20);
-}
-
-TEST(SelfIntersections, AreFoundWhereDistantPartsMeet) {
-  // Two lobes whose tips reach into each other: each patch by itself is smooth.
-  const TriangleMesh horseshoe = sphere(30);
-  for (const double gap : {0.05, -0.05}) {
-    TriangleMesh bent = horseshoe;
-    for (Eigen::Index v = 0; v < bent.vertices.rows(); ++v) {
-      // A long ellipsoid wound around the z axis, its ends `gap` apart.
-      const double angle = (3.14159265358979 - 0.5 * gap) * bent.vertices(v, 0);
-      const double radius = 1.0 + 0.3 * bent.vertices(v, 1);
-      bent.vertices.row(v) << radius * std::cos(angle), radius * std::sin(angle),
-          0.3 * bent.vertices(v, 2);
-    }
-    EXPECT_EQ(selfIntersectingFaces(bent.vertices, bent.faces).empty(), gap > 0.0);
-    EXPECT_EQ(intersectingPairs(bent) == 0, gap > 0.0);
-  }
 }
 
 } // namespace

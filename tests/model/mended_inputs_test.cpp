@@ -117,7 +117,7 @@ TEST(MendedInput, MayHaveFacesWithoutArea) {
 
 TEST(MendedInput, MayFaceInwards) {
   const Result result = optimizeMassProperties(reversed(leaningPillar()), {});
-  EXPECT_EQ(repairs(result), "1 component turned round");
+  EXPECT_EQ(repairs(result), "1 component flipped");
   expectGoodCavity(result, leaningPillar());
 }
 
@@ -170,8 +170,8 @@ TEST(MendedInput, MayHaveACavityWhichTheNewOneReplaces) {
     EXPECT_EQ(result.outer->faces, body.faces);
     expectGoodCavity(result, *result.outer);
     expectTheSameCavity(result, resultOfPillar());
-    const std::string told = "1 existing cavity replaced by the new one";
-    EXPECT_EQ(repairs(result), turned ? "1 component turned round, " + told : told);
+    const std::string replaced = "1 existing cavity replaced by the new one";
+    EXPECT_EQ(repairs(result), turned ? "1 component flipped, " + replaced : replaced);
     // Before: with the old cavity. After: with the new one alone.
     const double solid = quadratureMoments(body)[0];
     EXPECT_NEAR(number(result, "volume_before"), solid - quadratureMoments(hole)[0], 1e-8);
@@ -189,7 +189,7 @@ TEST(MendedInput, MayHaveAllOfThisTogether) {
   ASSERT_TRUE(result.outer.has_value());
   EXPECT_EQ(intersectingPairs(result.inner), 0U);
   EXPECT_EQ(intersectingPairs(result.inner, *result.outer), 0U);
-  for (const char* part : {"merged", "2 components turned round", "1 existing cavity replaced"})
+  for (const char* part : {"merged", "2 components flipped", "1 existing cavity replaced"})
     EXPECT_NE(repairs(result).find(part), std::string::npos) << repairs(result);
 }
 

@@ -367,7 +367,7 @@ TEST(OpenSurface, IsTheSameForTheTurnedSurfaceAndFarAway) {
   const OpenRun again = runOn(vase, options);
   EXPECT_EQ(run.result.inner.vertices, again.result.inner.vertices);
   const OpenRun turned = runOn(reversed(vase), options);
-  EXPECT_EQ(std::get<std::string>(turned.result.report.at("repairs")), "1 component turned round");
+  EXPECT_EQ(std::get<std::string>(turned.result.report.at("repairs")), "1 component flipped");
   // In another order of the faces the skeleton differs within its noise.
   const double gain = number(run, "objective_before") - number(run, "objective_after");
   EXPECT_NEAR(number(turned, "objective_after"), number(run, "objective_after"), 0.02 * gain);

@@ -98,9 +98,10 @@ double volumeOf(const Points& vertices, const Faces& faces) {
 }
 
 /// A solid like that of `clean`, and what was done to get it.
-void expectMended(const TriangleMesh& input, const TriangleMesh& clean, const std::string& told) {
+void expectMended(const TriangleMesh& input, const TriangleMesh& clean,
+                  const std::string& reported) {
   const Solid solid = makeSolid(input);
-  EXPECT_EQ(solid.repairs().describe(), told);
+  EXPECT_EQ(solid.repairs().describe(), reported);
   EXPECT_TRUE(isClosedAndOriented({solid.vertices(), solid.faces()}));
   EXPECT_EQ(intersectingPairs({solid.vertices(), solid.faces()}), 0U);
   const double volume = volumeOf(clean.vertices, clean.faces);
@@ -110,7 +111,7 @@ void expectMended(const TriangleMesh& input, const TriangleMesh& clean, const st
 /// The refusal names what is wrong and what to do, with all of `words`.
 void expectRefusal(const TriangleMesh& mesh, const std::vector<std::string>& words) {
   try {
-    makeSolid(mesh);
+    requireNoCrossings(makeSolid(mesh));
     FAIL() << "accepted; expected a refusal with: " << words.front();
   } catch (const InvalidInput& e) {
     const std::string message = e.what();
@@ -139,13 +140,12 @@ TEST(MakeSolid, MeasuresTheDiagonal) {
 
 TEST(MakeSolid, TurnsASurfaceThatFacesInwards) {
   const TriangleMesh mesh = transformed(blob(5), Mat3::Identity(), {100, 200, 300});
-  expectMended(reversed(mesh), mesh, "1 component turned round");
+  expectMended(reversed(mesh), mesh, "1 component flipped");
 }
 
 TEST(MakeSolid, TurnsOnlyTheComponentsThatFaceInwards) {
   const TriangleMesh other = transformed(blob(3), Mat3::Identity(), {5, 0, 0});
-  expectMended(joined(blob(4), reversed(other)), joined(blob(4), other),
-               "1 component turned round");
+  expectMended(joined(blob(4), reversed(other)), joined(blob(4), other), "1 component flipped");
 }
 
 TEST(MakeSolid, LeavesOutVerticesThatNoFaceUses) {
@@ -320,7 +320,7 @@ TEST(MakeSolid, RefusesASurfaceThatCrossesItself) {
                 {"crosses itself", "Select Self Intersecting Faces", "Mesh Boolean: Union"});
 }
 
-TEST(MakeSolid, LeavesTheCrossingsOfASingleClosedSurfaceForLaterOnRequest) {
+TEST(MakeSolid, LeavesTheCrossingsOfASingleClosedSurfaceForLater) {
   const auto refuses = [](const auto& step) {
     try {
       step();
@@ -329,21 +329,17 @@ TEST(MakeSolid, LeavesTheCrossingsOfASingleClosedSurfaceForLaterOnRequest) {
     }
     return false;
   };
-  const auto solidLater = [](const TriangleMesh& mesh) {
-    return makeSolid(mesh, false, Mat3::Identity(), CrossingCheck::Later);
-  };
   TriangleMesh crossing = box({1, 1, 1}, 4);
   for (Eigen::Index v = 0; v < crossing.vertices.rows(); ++v) {
     if (crossing.vertices.row(v) == Eigen::RowVector3d(0, 0, 0.5))
       crossing.vertices.row(v) << 0.8, 0.1, 0;
   }
-  EXPECT_TRUE(refuses([&] { makeSolid(crossing); }));
-  const Solid unchecked = solidLater(crossing);
+  const Solid unchecked = makeSolid(crossing);
   EXPECT_TRUE(refuses([&] { requireNoCrossings(unchecked); }));
-  EXPECT_NO_THROW(requireNoCrossings(solidLater(box({1, 1, 1}, 4))));
+  EXPECT_NO_THROW(requireNoCrossings(makeSolid(box({1, 1, 1}, 4))));
   // Several bodies cannot wait: which one is inside of which has to be known.
   const TriangleMesh two = joined(blob(3), transformed(blob(3), Mat3::Identity(), {0.9, 0.1, 0}));
-  EXPECT_TRUE(refuses([&] { solidLater(two); }));
+  EXPECT_TRUE(refuses([&] { makeSolid(two); }));
 }
 
 TEST(MakeSolid, RefusesBodiesThatLieExactlyOnEachOther) {

@@ -219,7 +219,7 @@ TEST_P(SampleLimit, IsWhatBruteForceFindsOnVoxels) {
   Moments voxels = Moments::Zero();
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     const Vec3 p = points.row(i).transpose();
-    if (!massprops::isInside(p, surface) ||
+    if (!PointInMesh(surface).contains(p) ||
         std::sqrt(surface.nearest(p).squaredDistance) < posed.wall)
       continue;
     Moments one;

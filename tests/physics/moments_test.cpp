@@ -2,6 +2,7 @@
 #include "core/physics/moments.h"
 
 #include "shapes.h"
+#include "translated_moments.h"
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>

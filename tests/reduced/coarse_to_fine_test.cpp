@@ -19,7 +19,7 @@ constexpr int kBasis = 12;
 /// A lump of a few thousand vertices that stands on the ground z = 0, its basis on a proxy.
 struct Lump {
   TriangleMesh mesh = transformed(blob(30), 0.4 * Mat3::Identity(), {0.05, -0.03, 0.42});
-  Proxy proxy = makeProxy(mesh.vertices, mesh.faces, {600, 600, 0.0});
+  DecimatedMesh proxy = decimated(mesh.vertices, mesh.faces, {600, 600, 0.0});
   Interpolation interpolation = interpolationFrom(proxy, mesh.vertices);
   Vector mass = vertexLumpedMass(mesh.vertices, mesh.faces);
   HarmonicBasis basis;

@@ -28,10 +28,12 @@ double unguardedOptimum(const TriangleMesh& mesh, const Options& options) {
   const SparseMatrix L = cotanLaplacian(posed.vertices, posed.faces);
   const Vector area = vertexLumpedMass(posed.vertices, posed.faces);
   const Vector mass = area / area.sum();
-  const HarmonicBasis basis = harmonicBasis(L, mass, options.basisSize);
+  const HarmonicBasis basis =
+      harmonicBasis(posed.vertices, posed.faces, L, mass, options.basisSize);
   const Points skeleton = meanCurvatureSkeleton(posed.vertices, posed.faces).points;
   constexpr double kDiffusionLength = 0.02;
-  OffsetField field = offsetField(posed.vertices, posed.faces, skeleton, L, area, kDiffusionLength);
+  OffsetField field = offsetField(posed.vertices, posed.faces,
+                                  smoothedOverSurface(skeleton, L, area, kDiffusionLength));
   // The full distance to the smoothed skeleton, whatever lies on the way.
   SparseMatrix system = kDiffusionLength * kDiffusionLength * L;
   system.diagonal() += area;

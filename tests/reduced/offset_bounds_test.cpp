@@ -41,7 +41,7 @@ TEST(BoundMap, StaysBetweenTheBoundsForRandomCoefficients) {
   const SparseMatrix L = cotanLaplacian(mesh.vertices, mesh.faces);
   Vector mass = vertexLumpedMass(mesh.vertices, mesh.faces);
   mass /= mass.sum();
-  const HarmonicBasis basis = harmonicBasis(L, mass, 36);
+  const HarmonicBasis basis = harmonicBasis(mesh.vertices, mesh.faces, L, mass, 36);
   const OffsetBounds bounds = randomBounds(static_cast<int>(mesh.vertices.rows()), 3);
   Random random(4);
   for (int trial = 0; trial < 20; ++trial) {
@@ -160,7 +160,7 @@ TEST(InnerBounds, EndAtTheFactorTimesTheReach) {
 
 TEST(InnerBoundsOfACopy, KeepTheWallFromTheSurfaceAndLittleMore) {
   const TriangleMesh fine = sphere(60);
-  const TriangleMesh copy = coarseCopy(fine.vertices, fine.faces, {400, 400, 0.0}).mesh;
+  const TriangleMesh copy = decimated(fine.vertices, fine.faces, {400, 400, 0.0}).mesh;
   // Directions away from a point beside the middle: slanted against the surface.
   const Points axis = Points::Zero(400, 3).rowwise() + Eigen::RowVector3d(0.5, 0.3, 0.0);
   const OffsetField field = offsetField(copy.vertices, copy.faces, axis);

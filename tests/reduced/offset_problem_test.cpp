@@ -31,7 +31,7 @@ struct Scene {
     L = cotanLaplacian(mesh.vertices, mesh.faces);
     mass = vertexLumpedMass(mesh.vertices, mesh.faces);
     mass /= mass.sum();
-    basis = harmonicBasis(L, mass, kBasis);
+    basis = harmonicBasis(mesh.vertices, mesh.faces, L, mass, kBasis);
     const Eigen::Index n = mesh.vertices.rows();
     directions.resize(n, 3);
     for (Eigen::Index i = 0; i < n; ++i) {

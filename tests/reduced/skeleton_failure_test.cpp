@@ -2,6 +2,7 @@
 #include "core/goals/spin.h"
 #include "core/model/posed_model.h"
 #include "core/pipeline.h"
+#include "core/reduced/arena_allocator.h"
 #include "core/reduced/cavity_search.h"
 #include "core/reduced/skeleton.h"
 #include "judge/checks.h"
@@ -9,7 +10,10 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <memory>
+#include <new>
+#include <stdexcept>
 
 namespace massprops::testing {
 namespace {
@@ -35,6 +39,25 @@ TEST(SkeletonFailure, ConcernsOneComponentOnly) {
   EXPECT_EQ(skeleton.failedComponents, 1);
   EXPECT_TRUE(skeleton.points.allFinite());
   EXPECT_EQ(meanCurvatureSkeleton(both.vertices, both.faces).failedComponents, 0);
+}
+
+TEST(SkeletonFailure, IsNoLackOfTheSystemsMemory) {
+  // More than any system has: half of all addresses.
+  const TriangleMesh mesh = scaled(sphere(4), 0.25);
+  const auto n = static_cast<std::size_t>(mesh.vertices.rows());
+  const std::size_t tooMuch = std::numeric_limits<std::size_t>::max() / 2 / n;
+  EXPECT_THROW(meanCurvatureSkeleton(mesh.vertices, mesh.faces, tooMuch), std::bad_alloc);
+}
+
+TEST(Arena, SaysWhetherItIsUsedUpOrWasNeverThere) {
+  EXPECT_THROW(arenaAllocate(16), std::logic_error);
+  const ArenaScope scope(0);
+  std::size_t nodes = 0;
+  const auto fill = [&] {
+    for (;; ++nodes) arenaAllocate(4096);
+  };
+  EXPECT_THROW(fill(), ArenaUsedUp);
+  EXPECT_EQ(nodes, 256U); // a megabyte is always there
 }
 
 TEST(SkeletonFailure, IsRepeatedBitForBit) {
@@ -68,7 +91,7 @@ TEST(SkeletonFailure, StillGivesACavityThatKeepsTheWall) {
   const Vector mass = area / area.sum();
   const HarmonicBasis basis = harmonicBasis(posed.vertices, posed.faces, L, mass, 20);
   const OffsetField field =
-      offsetField(posed.vertices, posed.faces, skeleton.points, L, area, 0.02);
+      offsetField(posed.vertices, posed.faces, smoothedOverSurface(skeleton.points, L, area, 0.02));
   const Moments solid = moments(posed.vertices, posed.faces);
   const std::unique_ptr<Goal> goal = makeSpinGoal(solid, options.weights);
   CavityTask task{surface, *goal, {}, options.weights};

@@ -1,0 +1,15 @@
+// What several stages must agree on when they compare numbers. Lengths are shares of the model's
+// diagonal.
+#pragma once
+
+namespace massprops {
+
+/// Constraints hold where |h| ≤ kFeasibility for equalities h = 0 and g ≤ kFeasibility for
+/// inequalities g ≤ 0.
+constexpr double kFeasibility = 1e-6;
+
+/// A vertex touches the ground where its height above the lowest one is ≤ kContactHeight; so does
+/// what hangs, at the highest one.
+constexpr double kContactHeight = 1e-4;
+
+} // namespace massprops

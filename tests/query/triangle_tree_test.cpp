@@ -1,0 +1,109 @@
+// Rays and nearest points, and what is found far from the origin.
+#include "core/query/triangle_tree.h"
+
+#include "shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <utility>
+#include <vector>
+
+namespace massprops::testing {
+namespace {
+
+TEST(Chords, ThroughABallHaveTheLengthOfTheChord) {
+  const TriangleMesh ball = sphere(12);
+  const TriangleTree tree(ball.vertices, ball.faces);
+  Points towards = -ball.vertices;
+  // Through the centre: 2, up to the depth of the polyhedron's faces.
+  const Vector diameters = chords(tree, ball.vertices, towards);
+  EXPECT_NEAR(diameters.minCoeff(), 2.0, 0.01);
+  EXPECT_NEAR(diameters.maxCoeff(), 2.0, 1e-12);
+  EXPECT_TRUE((chords(tree, ball.vertices, ball.vertices).array() ==
+               std::numeric_limits<double>::infinity())
+                  .all()); // outwards nothing is hit
+}
+
+class NearestPoint : public ::testing::TestWithParam<std::pair<double, Vec3>> {};
+
+TEST_P(NearestPoint, IsThatOfAllTriangles) {
+  const auto [size, origin] = GetParam();
+  const TriangleMesh mesh = transformed(blob(6), size * Mat3::Identity(), origin);
+  const TriangleTree tree(mesh.vertices, mesh.faces);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(-2.0, 2.0);
+  for (int i = 0; i < 200; ++i) {
+    const double far = i % 10 == 0 ? 1e6 : 1.0;
+    const Vec3 p = origin + far * size * Vec3(place(random), place(random), place(random));
+    double least = std::numeric_limits<double>::infinity();
+    for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
+      least = std::min(least, tree.squaredDistance(p, static_cast<int>(f)));
+    }
+    const TriangleTree::Hit hit = tree.nearest(p);
+    ASSERT_GE(hit.face, 0);
+    EXPECT_EQ(hit.squaredDistance, least);
+    EXPECT_EQ(tree.nearest(p, least).face, -1) << "nothing is nearer";
+    EXPECT_EQ(tree.nearest(p, least * (1.0 + 1e-14)).squaredDistance, least);
+  }
+}
+
+// Boxes are floats, which are exhausted by squares of such lengths and by such origins.
+INSTANTIATE_TEST_SUITE_P(
+    Sizes, NearestPoint,
+    ::testing::Values(std::pair(1.0, Vec3(0, 0, 0)), std::pair(1e25, Vec3(0, 0, 0)),
+                      std::pair(1e-25, Vec3(0, 0, 0)), std::pair(1e-21, Vec3(0, 0, 0)),
+                      std::pair(1.0, Vec3(1e5, -3e6, 0)), std::pair(1e-3, Vec3(0, 0, 1e5))));
+
+/// How many triangles a search for those that meet each triangle's box looks at.
+std::int64_t visits(const TriangleMesh& mesh, TriangleTree::Order order) {
+  const TriangleTree tree(mesh.vertices, mesh.faces, order, TriangleTree::Queries::NoDistances);
+  std::int64_t count = 0;
+  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
+    Eigen::AlignedBox3d box;
+    for (const int v : mesh.faces.row(f)) box.extend(Vec3(mesh.vertices.row(v).transpose()));
+    tree.forOverlaps(box.min(), box.max(), 0, [&](Eigen::Index) { ++count; });
+  }
+  return count;
+}
+
+TEST(TriangleTree, LooksAtAsFewTrianglesFarFromTheOrigin) {
+  // A float at 5 million steps by a half, as much as the whole body is wide.
+  const TriangleMesh near = blob(10);
+  const TriangleMesh far = transformed(near, Mat3::Identity(), {5e6, -5e6, 5e6});
+  const std::int64_t few = visits(near, TriangleTree::Order::Any);
+  const std::int64_t most = few + few / 20; // the coordinates were rounded
+  EXPECT_LT(few, 60 * near.faces.rows());
+  EXPECT_LE(visits(far, TriangleTree::Order::Any), most);
+}
+
+TEST(TriangleTree, FindsAllTrianglesThatMeetABoxFarFromTheOrigin) {
+  const TriangleMesh far = transformed(blob(6), Mat3::Identity(), {5e6, 3.0, -1e7 / 3.0});
+  const TriangleTree tree(far.vertices, far.faces);
+  for (Eigen::Index f = 0; f < far.faces.rows(); ++f) {
+    // The box of one corner is a point, whose triangles must be among those found.
+    const Vec3 corner = far.vertices.row(far.faces(f, 0)).transpose();
+    bool isFound = false;
+    tree.forOverlaps(corner, corner, 0,
+                     [&](Eigen::Index i) { isFound = isFound || tree.faceAt(i) == f; });
+    EXPECT_TRUE(isFound) << f;
+  }
+  const Vec3 lowest = far.vertices.colwise().minCoeff().transpose();
+  const Vec3 highest = far.vertices.colwise().maxCoeff().transpose();
+  EXPECT_TRUE((tree.lower().array() <= lowest.array()).all());
+  EXPECT_TRUE((tree.upper().array() >= highest.array()).all());
+}
+
+TEST(SpatialOrder, LooksAtNoVertexWithoutAFace) {
+  // Else many components, each a part of all vertices, would take quadratic time.
+  const TriangleMesh mesh = blob(5);
+  TriangleMesh more = mesh;
+  more.vertices.conservativeResize(mesh.vertices.rows() + 1, 3);
+  more.vertices.bottomRows(1).setConstant(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(spatialOrder(more.vertices, more.faces), spatialOrder(mesh.vertices, mesh.faces));
+}
+
+} // namespace
+} // namespace massprops::testing
