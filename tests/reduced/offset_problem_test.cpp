@@ -72,8 +72,7 @@ Weights allWeights() {
 
 std::unique_ptr<Goal> makeGoal(GoalKind kind, const Weights& weights) {
   const Scene& s = scene();
-  if (kind == GoalKind::Spin)
-    return makeSpinGoal(moments(s.mesh.vertices, s.mesh.faces), weights);
+  if (kind == GoalKind::Spin) return makeSpinGoal(moments(s.mesh.vertices, s.mesh.faces), weights);
   // Narrow and off the middle, so that some constraints are violated.
   return makeStandGoal({{{-0.1, -0.1}, {0.02, -0.1}, {0.02, 0.1}, {-0.1, 0.1}}, {}}, weights);
 }
