@@ -96,10 +96,10 @@ private:
 
 class FloatVerdict final : public Verdict {
 public:
-  FloatVerdict(const Points& outer, const Faces& faces, const WishedPose& wished,
-               double waterDensity, double lengthUnit)
-      : goal_(wished, waterDensity, {}), outer_(outer), faces_(faces), wished_(wished),
-        waterDensity_(waterDensity), lengthUnit_(lengthUnit) {}
+  FloatVerdict(Points outer, Faces faces, const WishedPose& wished, double waterDensity,
+               double lengthUnit)
+      : goal_(wished, waterDensity, {}), outer_(std::move(outer)), faces_(std::move(faces)),
+        wished_(wished), waterDensity_(waterDensity), lengthUnit_(lengthUnit) {}
 
   bool isReached(const Moments& massMoments) const override { return isReached(pose(massMoments)); }
 

@@ -777,9 +777,11 @@ std::vector<std::string> brokenPromises(const PropertyCase& c, const Result& res
   const double inertiaError = 100 * error; // by an I_zz that may be small
   const GoalKind goal = c.options.goal;
   const bool isSpin = goal == GoalKind::Spin || goal == GoalKind::YoYo;
-  const Body filled = bodyWith(density * afterMoments - filling * innerMoments);
   // A solid body has no cavity to fill, but those that it came with count as cavity.
   const Body filledBefore = bodyWith((density - filling) * inputMoments + filling * solidMoments);
+  const Body filled = hollow || result.outer
+                          ? bodyWith(density * afterMoments - filling * innerMoments)
+                          : filledBefore;
   const double violationBefore = violationOf(c, frame, before, filledBefore, solid);
   const double violationAfter = violationOf(c, frame, after, filled, solid);
   const double told = number(result, "max_constraint_violation");
