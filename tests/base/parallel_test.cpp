@@ -1,4 +1,4 @@
-// Loops on several threads: everything is done, once, and what goes wrong is told.
+// Loops on several threads: everything is done, once, and what goes wrong is reported.
 #include "core/base/parallel.h"
 #include "thread_count.h"
 

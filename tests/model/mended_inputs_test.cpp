@@ -1,4 +1,4 @@
-// Nearly good models: they work, the result is that of the good model, and the report tells what
+// Nearly good models: they work, the result is that of the good model, and the report says what
 // was mended.
 #include "core/pipeline.h"
 #include "judge/checks.h"
