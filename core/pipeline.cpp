@@ -317,7 +317,9 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
   result.report = hollowingReport(posed, task, reached ? *reached : *goal, cavity, options, stages);
   if (reached && options.showAnswer) {
     tell(97, "Picture of the answer");
-    result.picture = pictureOf(posed, task, *reached, cavity);
+    PictureResult drawn = pictureOf(posed, task, *reached, cavity);
+    result.picture = std::move(drawn.picture);
+    if (!result.picture) result.report.add("picture", drawn.failure);
   }
   result.report.add("seconds_total", total.seconds());
   tell(100, "Done");
