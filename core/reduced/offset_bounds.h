@@ -16,7 +16,7 @@ struct OffsetBounds {
 
 /// Bounds aim at so many walls: what ends a little short of them, by the host's rounding or because
 /// a correction did not quite do, still keeps the wall.
-constexpr double kBeyondWall = 1.002;
+constexpr double kBeyondWall = 1.0015;
 
 /// Inner surface: l_i = kBeyondWall·wall / clearance_i, so that the displaced faces are more than
 /// `wall` behind their originals, measured perpendicular to them; u_i = factor·r_i. Where the body
