@@ -184,10 +184,6 @@ Result deliver(const Preparation& model, const Foundation& foundation, const Sea
   result.inner = std::move(delivery.inner);
   result.innerWall = std::move(delivery.innerWall);
   result.outer = std::move(delivery.outer);
-  if (found.cavity.status == CavityStatus::Found && options.showAnswer) {
-    bar.show(97, "Picture of the answer");
-    result.picture = pictureOf(model.posed, found.task, *found.verdictAfter, found.cavity);
-  }
   return result;
 }
 
@@ -206,6 +202,14 @@ Report report(const Preparation& model, const Foundation& foundation, const Sear
   stages.secondsLargestWall = found.secondsLargestWall;
   return hollowingReport(model.posed, found.task, {*found.verdictBefore, *found.verdictAfter},
                          found.cavity, options, stages);
+}
+
+void draw(const Preparation& model, const Search& found, ProgressBar& bar, Result& result) {
+  if (found.cavity.status != CavityStatus::Found) return;
+  bar.show(97, "Picture of the answer");
+  PictureResult drawn = pictureOf(model.posed, found.task, *found.verdictAfter, found.cavity);
+  result.picture = std::move(drawn.picture);
+  if (!result.picture) result.report.add("picture", drawn.failure);
 }
 
 } // namespace massprops

@@ -86,12 +86,15 @@ struct Search {
 Search search(const Preparation& model, const Foundation& foundation, const Options& options,
               ProgressBar& bar);
 
-/// All of the result but its report.
+/// The surfaces of the result, without report and picture.
 Result deliver(const Preparation& model, const Foundation& foundation, const Search& found,
                const Options& options, ProgressBar& bar);
 
 /// All keys of docs/report.md but `seconds_total`.
 Report report(const Preparation& model, const Foundation& foundation, const Search& found,
               const Options& options);
+
+/// The picture, or a key of the report that says why there is none.
+void draw(const Preparation& model, const Search& found, ProgressBar& bar, Result& result);
 
 } // namespace massprops

@@ -152,7 +152,7 @@ TEST_P(EveryResult, KeepsTheWallAndReportsTheLeast) {
   const Result& result = resultOf(c);
   const double wall = leastDistance(result.inner, outerOf(c));
   const double wanted = c.options.innerLowerBound.value_or(0.01 * diagonal(c.model));
-  EXPECT_GE(wall, 0.99 * wanted); // the promised tolerance of 1 %
+  EXPECT_GE(wall, wanted);
   EXPECT_NEAR(number(result, "min_wall"), wall, 1e-9 * diagonal(c.model));
 }
 
@@ -717,6 +717,14 @@ TEST(Pipeline, SaysWhatToDoWhereALibraryGivesUp) {
     EXPECT_NE(std::string(error.what()).find("Isotropic Explicit Remeshing"), std::string::npos);
     EXPECT_NE(std::string(error.what()).find("precondition"), std::string::npos);
   }
+}
+
+TEST(Pipeline, SearchesAgainWithSteeperDirectionsFarFromTheLimit) {
+  const TriangleMesh dog = sampleMesh("toy_dog");
+  Options options;
+  options.innerLowerBound = 0.02 * diagonal(dog);
+  // 6.1 %, and 8.9 % with the slanted directions alone; the toy dinosaur has 7.0 % and 7.9 %.
+  EXPECT_LT(number(optimizeMassProperties(dog, options), "gap_to_limit"), 0.075);
 }
 
 TEST(Pipeline, TellsItsProgressInOrder) {

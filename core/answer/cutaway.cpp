@@ -19,15 +19,17 @@ constexpr double kOnPlane = 1e-9;
 
 } // namespace
 
-ColouredMesh cutaway(const TriangleMesh& material, Eigen::Index cavityVertices, const Vec3& point,
-                     const Vec3& normal) {
+std::optional<ColouredMesh> cutaway(const TriangleMesh& material, Eigen::Index cavityVertices,
+                                    const Vec3& point, const Vec3& normal) {
   auto mesh = surfaceMesh(material.vertices, material.faces);
   mesh.set_recycle_garbage(false); // vertices are known by their numbers
-  CGAL::Polygon_mesh_processing::clip(
-      mesh,
-      Kernel::Plane_3(Kernel::Point_3(point.x(), point.y(), point.z()),
-                      Kernel::Vector_3(normal.x(), normal.y(), normal.z())),
-      CGAL::parameters::clip_volume(true));
+  if (!CGAL::Polygon_mesh_processing::clip(
+          mesh,
+          Kernel::Plane_3(Kernel::Point_3(point.x(), point.y(), point.z()),
+                          Kernel::Vector_3(normal.x(), normal.y(), normal.z())),
+          CGAL::parameters::clip_volume(true))) {
+    return std::nullopt;
+  }
 
   const double onPlane =
       kOnPlane *

@@ -4,6 +4,8 @@
 #include "core/base/types.h"
 #include "core/mesh/annotations.h"
 
+#include <optional>
+
 namespace massprops {
 
 constexpr Colour kOuterColour{158, 184, 204};
@@ -13,10 +15,11 @@ constexpr Colour kCutColour{242, 168, 64};
 /// The half of the material on the side of the plane that `normal` points away from: what is left
 /// of the outer surface and of the cavity, and the cut through the material, each in its colour and
 /// with vertices of its own, so that it is shaded on its own. Closed where vertices that lie on
-/// each other are merged. Nothing when the half is empty. `material`: closed, outward oriented,
-/// free of crossings, every vertex used. Faces with a corner among the first `cavityVertices`
-/// vertices bound the cavity.
-ColouredMesh cutaway(const TriangleMesh& material, Eigen::Index cavityVertices, const Vec3& point,
-                     const Vec3& normal);
+/// each other are merged; without faces when the half is empty. Empty where the plane cannot be cut
+/// along, as where the half would hang together by an edge alone. `material`: closed, outward
+/// oriented, free of crossings, every vertex used. Faces with a corner among the first
+/// `cavityVertices` vertices bound the cavity.
+std::optional<ColouredMesh> cutaway(const TriangleMesh& material, Eigen::Index cavityVertices,
+                                    const Vec3& point, const Vec3& normal);
 
 } // namespace massprops

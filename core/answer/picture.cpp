@@ -9,6 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <new>
+#include <utility>
 
 namespace massprops {
 namespace {
@@ -32,10 +35,9 @@ Vec2 widestDirection(const Points& vertices) {
   return widest;
 }
 
-} // namespace
-
-Picture pictureOf(const PosedModel& posed, const CavityTask& task, const Verdict& verdict,
-                  const CavityResult& cavity) {
+/// Empty where the cut fails.
+std::optional<Picture> drawn(const PosedModel& posed, const CavityTask& task, const Verdict& verdict,
+                             const CavityResult& cavity) {
   const Moments massAfter =
       shellMoments(outerMoments(task, cavity), moments(cavity.inner, cavity.cavity.faces), 1.0,
                    task.model.fillDensity);
@@ -53,7 +55,9 @@ Picture pictureOf(const PosedModel& posed, const CavityTask& task, const Verdict
                                    shellOf(task.surface.faces(), cavity.cavity.faces, n));
   const auto cavityVertices = std::count_if(material.vertexOf.begin(), material.vertexOf.end(),
                                             [&](int v) { return v < n; });
-  picture.cutOpen = cutaway(material.mesh, cavityVertices, after, normal);
+  std::optional<ColouredMesh> half = cutaway(material.mesh, cavityVertices, after, normal);
+  if (!half) return std::nullopt;
+  picture.cutOpen = std::move(*half);
 
   Annotations annotations(cavity.outer);
   annotations.addBall(before, kBeforeColour);
@@ -67,6 +71,23 @@ Picture pictureOf(const PosedModel& posed, const CavityTask& task, const Verdict
     part->mesh.vertices = toModel(posed.frame, part->mesh.vertices);
   }
   return picture;
+}
+
+} // namespace
+
+PictureResult pictureOf(const PosedModel& posed, const CavityTask& task, const Verdict& verdict,
+                        const CavityResult& cavity) {
+  try {
+    std::optional<Picture> picture = drawn(posed, task, verdict, cavity);
+    if (picture) return {std::move(picture), ""};
+    return {std::nullopt, "could not be drawn: the body cannot be cut along the plane through its "
+                          "centre of mass"};
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {
+    // CGAL's own words name its source files.
+    return {std::nullopt, "could not be drawn: cutting the body open failed"};
+  }
 }
 
 } // namespace massprops

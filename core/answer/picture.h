@@ -3,6 +3,7 @@
 
 #include "core/mesh/annotations.h"
 
+#include <optional>
 #include <string>
 
 namespace massprops {
@@ -22,8 +23,14 @@ struct Picture {
   std::string marksName; ///< "centre of mass and contact area"
 };
 
+struct PictureResult {
+  std::optional<Picture> picture;
+  std::string failure; ///< why there is none; empty where there is one
+};
+
+/// What cannot be drawn is no reason to lose the cavity: only std::bad_alloc is thrown.
 /// `verdict`: for the outer surface of the result. \pre the search found something
-Picture pictureOf(const PosedModel& posed, const CavityTask& task, const Verdict& verdict,
-                  const CavityResult& cavity);
+PictureResult pictureOf(const PosedModel& posed, const CavityTask& task, const Verdict& verdict,
+                        const CavityResult& cavity);
 
 } // namespace massprops

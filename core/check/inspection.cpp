@@ -14,7 +14,12 @@
 namespace massprops {
 namespace {
 
-constexpr double kWallTolerance = 0.005;
+/// Distances are measured to a billionth.
+constexpr double kMeasured = 1e-9;
+
+double safely(double wall) {
+  return (1.0 + kMeasured) * wall;
+}
 
 /// The vertices of these faces, ascending.
 std::vector<int> verticesOf(const Faces& faces,
@@ -40,7 +45,7 @@ void add(const std::vector<int>& more, std::vector<int>& list) {
 std::vector<int> thinnerThan(double wall, const Eigen::Ref<const Vector>& walls) {
   std::vector<int> thin;
   for (Eigen::Index v = 0; v < walls.size(); ++v) {
-    if (walls[v] < (1.0 - kWallTolerance) * wall) thin.push_back(static_cast<int>(v));
+    if (walls[v] < safely(wall)) thin.push_back(static_cast<int>(v));
   }
   return thin;
 }
@@ -58,7 +63,7 @@ Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleT
   };
   const auto takeWall = [&] {
     ClearanceQuery fresh(outer);
-    Clearance found = (clearance != nullptr ? *clearance : fresh).measure(inner, innerFaces, wall);
+    Clearance found = (clearance != nullptr ? *clearance : fresh).measure(inner, innerFaces, safely(wall));
     add(verticesOf(innerFaces, {&found.crossing}), inspection.crossing);
     inspection.wall = std::move(found.distance);
     inspection.leastWall = found.least;
@@ -114,7 +119,7 @@ Inspection inspectShell(const Points& positions, const Faces& cavity, const Tria
   for (int& v : bad) v = v < n ? v : v - static_cast<int>(n);
   add(bad, inspection.crossing);
 
-  Clearance clearance = ClearanceQuery(skin).measure(positions, withoutStrips(cavity, n), wall);
+  Clearance clearance = ClearanceQuery(skin).measure(positions, withoutStrips(cavity, n), safely(wall));
   inspection.wall = std::move(clearance.distance);
   inspection.wall.tail(n).setZero();
   inspection.leastWall = clearance.least;

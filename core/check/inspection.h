@@ -18,7 +18,7 @@ struct Inspection {
   std::vector<int> crossing;
   /// Vertices of faces of a moved outer surface that cross each other, ascending.
   std::vector<int> outerCrossing;
-  /// Vertices whose wall is too thin by more than 0.5 %, ascending.
+  /// Vertices whose wall may be thinner than the wanted one, ascending.
   std::vector<int> thin;
   /// The outer face next to each vertex; −1 for a vertex without a face.
   std::vector<int> nearestFace;

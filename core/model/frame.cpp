@@ -1,5 +1,8 @@
 #include "core/model/frame.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace massprops {
 
 Mat3 rotationToUp(UpAxis up) {
@@ -37,6 +40,14 @@ Points toModel(const Frame& frame, const Points& working) {
 Points snapped(const Points& working) {
   constexpr double kGrid = 4294967296.0;
   return (working.array() * kGrid).round().matrix() / kGrid;
+}
+
+double roundOff(const Frame& frame) {
+  constexpr double kSnap = 0x1p-33;
+  // Eight roundings, four a point, of coordinates up to |origin| + 2 lengths.
+  const double rounding = 0x1p-50 * (2.0 + frame.origin.norm() / frame.length);
+  // Not less than the snap, so that where the model lies does not show unless that is far away.
+  return std::sqrt(3.0) * (kSnap + std::max(kSnap, rounding));
 }
 
 } // namespace massprops

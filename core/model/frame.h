@@ -23,4 +23,9 @@ Points toModel(const Frame& frame, const Points& working);
 /// last bits of its working coordinates, and the skeleton's comparisons must not see that.
 Points snapped(const Points& working);
 
+/// By how much, in working lengths, a distance in model coordinates may fall short of the same one
+/// between snapped vertices and points that came from working coordinates: each is moved by at most
+/// √3·2⁻³³ by `snapped`, and its way between the frames is rounded.
+double roundOff(const Frame& frame);
+
 } // namespace massprops

@@ -73,7 +73,9 @@ PosedModel makePosedModel(const Solid& solid, const Options& options) {
   posed.frame.origin = posed.frame.rotation.transpose() * contact.centre;
   posed.frame.length = solid.diagonal();
   posed.contact = scaled(contact.area, solid.diagonal());
-  posed.wall = options.innerLowerBound.value_or(kDefaultWall * solid.diagonal()) / solid.diagonal();
+  posed.wall =
+      options.innerLowerBound.value_or(kDefaultWall * solid.diagonal()) / solid.diagonal() +
+      roundOff(posed.frame);
   if (options.pivot) {
     posed.pivot = toWorking(posed.frame, Points(options.pivot->transpose())).row(0).transpose();
     if (posed.pivot->norm() > kFarthestPivot) {

@@ -25,7 +25,8 @@ struct PosedModel {
   /// Existing cavities, working frame, oriented into them. The new cavity takes their place.
   TriangleMesh cavities;
   ContactArea contact; ///< working lengths
-  double wall = 0.0;   ///< working length
+  /// Working length: who keeps it in the working frame keeps the wanted one in model coordinates.
+  double wall = 0.0;
   /// That the user gave, working frame.
   std::optional<Vec3> pivot;
 };

@@ -1,162 +1,20 @@
 #include "core/optimum/optimal_bound.h"
 
-#include "core/base/parallel.h"
 #include "core/base/tolerances.h"
 #include "core/goals/objective.h"
-#include "core/query/point_in_mesh.h"
-#include "core/query/triangle_tree.h"
 
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
+#include <utility>
 
 namespace massprops {
 namespace {
 
-/// Integrals over a cube of volume `volume` that is centred at p and as wide as `edge`.
-Moments cubeMoments(const Vec3& p, double edge, double volume) {
-  const double spread = edge * edge / 12.0;
-  Moments m;
-  m << 1.0, p, p.cwiseAbs2() + Vec3::Constant(spread), p.x() * p.y(), p.y() * p.z(), p.z() * p.x();
-  return volume * m;
-}
-
-constexpr int kNone = -1;
 /// Of the largest: functions that hardly vary over the region are left out.
 constexpr double kLeastSquare = 1e-10;
-
-/// An octree that is fine where the border of the region may be. Levels count upwards from the
-/// parts of border cells; 1 are the cells.
-class RegionSampler {
-public:
-  RegionSampler(const TriangleTree& surface, double wall, double edge)
-      : surface_(surface), wall_(wall), edge_(edge) {}
-
-  void add(const Vec3& centre) { visit(centre, kTop, kNone, {}); }
-
-  static constexpr int kTop = 4;
-  static double topEdge(double edge) { return edge * (1 << (kTop - 1)); }
-
-  AdmissibleCells cells() const {
-    std::vector<Moments> result;
-    int cell = kNone;
-    for (const Part& part : parts_) {
-      const double edge = edge_ * std::ldexp(1.0, part.level - 1);
-      if (part.level > 0) {
-        const int n = 1 << (part.level - 1);
-        const Vec3 first = part.centre - Vec3::Constant(0.5 * (edge - edge_));
-        for (int j = 0; j < n * n * n; ++j) {
-          const int layer = j / n;
-          const Eigen::Vector3i place(j % n, layer % n, layer / n);
-          result.emplace_back(
-              cubeMoments(first + edge_ * place.cast<double>(), edge_, edge_ * edge_ * edge_));
-        }
-        continue;
-      }
-      // The part of the cube behind the plane that is a wall away from the surface.
-      const double width = edge * part.inwards.cwiseAbs().sum();
-      const double share = std::clamp(0.5 + (part.depth - wall_) / width, 0.0, 1.0);
-      if (share == 0.0) continue;
-      if (part.cell != cell) result.emplace_back(Moments::Zero());
-      cell = part.cell;
-      result.back() += cubeMoments(part.centre + 0.5 * width * (1.0 - share) * part.inwards, edge,
-                                   share * edge * edge * edge);
-    }
-    AdmissibleCells rows(static_cast<Eigen::Index>(result.size()), 10);
-    for (std::size_t i = 0; i < result.size(); ++i) {
-      rows.row(static_cast<Eigen::Index>(i)) = result[i].transpose();
-    }
-    return rows;
-  }
-
-private:
-  struct Part {
-    Vec3 centre;
-    double depth; ///< behind the surface, negative outside
-    Vec3 inwards; ///< unit, where the depth grows
-    int level;    ///< 0: part of a border cell; else a cube of cells that are all beyond the wall
-    int cell;     ///< number of the border cell
-  };
-
-  /// The surface does not come into it, so that all of it is on one side.
-  struct Ball {
-    Vec3 centre;
-    double radius;
-    bool isInside;
-  };
-
-  /// The largest ball around a point that is part of a known one; of no radius outside of all.
-  Ball knownAround(const Vec3& centre) const {
-    Ball best{centre, 0.0, false};
-    for (const Ball& ball : known_) {
-      const double squared = (centre - ball.centre).squaredNorm();
-      if (squared >= ball.radius * ball.radius) continue;
-      const double radius = ball.radius - std::sqrt(squared);
-      if (radius > best.radius) best = {centre, radius, ball.isInside};
-    }
-    return best;
-  }
-
-  /// `near`: a point of the surface, if any is known.
-  void visit(const Vec3& centre, int level, int cell, const TriangleTree::Hit& near) {
-    const double size = edge_ * std::ldexp(1.0, level - 1);
-    const double half = 0.5 * std::sqrt(3.0) * size;
-    if (near.face >= 0 && (centre - near.point).norm() <= wall_ - half) return;
-    Ball ball = knownAround(centre);
-    const bool isSideKnown = ball.radius > 0.0;
-    // So far outside no cube has anything to be hollow, and the middle of a border cell's part no
-    // plane that would leave it any.
-    const double nothing = level > 0 ? half : half - wall_;
-    if (isSideKnown && !ball.isInside && ball.radius >= nothing) return;
-    // Farther away the surface does not matter.
-    const double far =
-        isSideKnown && ball.isInside ? wall_ + half : std::numeric_limits<double>::infinity();
-    TriangleTree::Hit nearest;
-    if (ball.radius < far) nearest = surface_.nearest(centre, far * far, near.face);
-    if (nearest.face < 0) {
-      known_.push_back({centre, far, true});
-      parts_.push_back({centre, far, Vec3::UnitX(), level, cell});
-      return;
-    }
-    ball.radius = std::sqrt(nearest.squaredDistance);
-    if (ball.radius <= wall_ - half) return;
-    // Asked only where it tells the side of all parts: their middles are half as far as corners.
-    if (isSideKnown || ball.radius > 0.5 * half || level == 0) {
-      if (!isSideKnown) ball.isInside = PointInMesh(surface_).contains(centre, nearest);
-      known_.push_back(ball);
-      if (!ball.isInside && ball.radius >= nothing) return;
-    }
-    if (level == 0 || (ball.isInside && ball.radius >= wall_ + half)) {
-      const double sign = ball.isInside ? 1.0 : -1.0;
-      const Vec3 away = (centre - nearest.point) / std::max(ball.radius, 1e-300);
-      parts_.push_back({centre, sign * ball.radius, sign * away, level, cell});
-      return;
-    }
-    if (level == 1) cell = borderCells_++;
-    const std::size_t known = known_.size();
-    // The ball around the part that is farthest from the surface spares most of the others.
-    const Vec3 away = centre - nearest.point;
-    const int farthest =
-        (away.x() > 0.0 ? 1 : 0) + (away.y() > 0.0 ? 2 : 0) + (away.z() > 0.0 ? 4 : 0);
-    for (int i = 0; i < 8; ++i) {
-      const int corner = i ^ farthest;
-      const Vec3 step((corner & 1) != 0 ? 0.25 : -0.25, (corner & 2) != 0 ? 0.25 : -0.25,
-                      (corner & 4) != 0 ? 0.25 : -0.25);
-      visit(centre + size * step, level - 1, cell, nearest);
-    }
-    known_.resize(known);
-  }
-
-  const TriangleTree& surface_;
-  double wall_;
-  double edge_;
-  std::vector<Part> parts_;
-  std::vector<Ball> known_; ///< around the cubes that the present one is part of, and their parts
-  int borderCells_ = 0;
-};
 
 /// How much of a cell is hollow, and its derivative by t: 0…1.
 struct Share {
@@ -215,109 +73,123 @@ std::optional<Moments> bestVerdict(const Goal& goal, const Moments& solid, doubl
   return best;
 }
 
-} // namespace
+/// The terms of a quadric (or a plane, without inertia) over the cells, as functions of unit mean
+/// square that are orthogonal over the region: of one scale each.
+struct Functions {
+  RowMatrix means;  ///< c×r, of each function over each cell
+  Matrix whitening; ///< terms×r, from a function's coefficients to those of the terms
+};
 
-AdmissibleCells admissibleCells(const TriangleTree& surface, double wall, int cells) {
-  const Vec3 low = surface.vertices().colwise().minCoeff();
-  const Vec3 high = surface.vertices().colwise().maxCoeff();
-  const Vec3 extent = high - low;
-  if (2.0 * wall >= extent.minCoeff()) return {};
-  // Sheets of almost no thickness would need cells without number.
-  constexpr double kMostAlongASide = 400.0;
-  const double edge =
-      std::max(std::cbrt(extent.prod() / cells), extent.maxCoeff() / kMostAlongASide);
-  const double step = RegionSampler::topEdge(edge);
-  const Eigen::Array<Eigen::Index, 3, 1> counts =
-      ((high - low) / step).array().ceil().max(1.0).cast<Eigen::Index>();
-  std::vector<AdmissibleCells> parts(static_cast<std::size_t>(counts.prod()));
-  forChunks(counts.prod(), 1, [&](const Chunk& chunk) {
-    const Eigen::Index column = chunk.number / counts.z();
-    const Eigen::Array<Eigen::Index, 3, 1> place(column / counts.y(), column % counts.y(),
-                                                 chunk.number % counts.z());
-    RegionSampler sampler(surface, wall, edge);
-    sampler.add(low + step * (place.cast<double>() + 0.5).matrix());
-    parts[static_cast<std::size_t>(chunk.number)] = sampler.cells();
-  });
-  Eigen::Index count = 0;
-  for (const AdmissibleCells& part : parts) count += part.rows();
-  AdmissibleCells all(count, 10);
-  Eigen::Index row = 0;
-  for (const AdmissibleCells& part : parts) {
-    all.middleRows(row, part.rows()) = part;
-    row += part.rows();
-  }
-  return all;
-}
-
-OptimalBound optimalBound(const Goal& goal, const Weights& weights, const Moments& solid,
-                          double fillDensity, const AdmissibleCells& cells) {
-  const Eigen::Index terms = goal.usesInertia() ? 10 : 4;
-  OptimalBound limit;
-  // Functions of unit mean square over the region that are orthogonal there: of one scale each.
+Functions orthonormalFunctions(const AdmissibleCells& cells, Eigen::Index terms) {
   const RowMatrix means = cells.col(0).cwiseInverse().asDiagonal() * cells.leftCols(terms);
-  const double volume = cells.col(0).sum();
   const Eigen::SelfAdjointEigenSolver<Matrix> spectrum(means.transpose() * cells.leftCols(terms));
   const Vector& squares = spectrum.eigenvalues();
   const Eigen::Index rank = (squares.array() > kLeastSquare * squares.maxCoeff()).count();
-  const Matrix whitening = spectrum.eigenvectors().rightCols(rank) *
-                           squares.tail(rank).cwiseInverse().cwiseSqrt().asDiagonal() *
-                           std::sqrt(volume);
-  const RowMatrix psi = means * whitening;
+  Functions functions;
+  functions.whitening = spectrum.eigenvectors().rightCols(rank) *
+                        squares.tail(rank).cwiseInverse().cwiseSqrt().asDiagonal() *
+                        std::sqrt(cells.col(0).sum());
+  functions.means = means * functions.whitening;
+  return functions;
+}
 
+/// The bodies that are hollow where Σ q_i ψ_i > 0, by q.
+class HollowBodies {
+public:
+  HollowBodies(const Goal& goal, const Weights& weights, const Moments& solid, double fillDensity,
+               const AdmissibleCells& cells)
+      : goal_(goal), weights_(weights), solid_(solid), filling_(fillDensity - 1.0), cells_(cells),
+        functions_(orthonormalFunctions(cells, goal.usesInertia() ? 10 : 4)) {}
+
+  /// First with a smooth border of the cavity, then with a sharp one.
+  MinimizeResult best() const {
+    // Half of every cell, almost nothing, almost everything: for several goals there is more than
+    // one minimum.
+    const Vector everything = functions_.means.transpose() * cells_.col(0) / cells_.col(0).sum();
+    MinimizeResult best;
+    best.violation = std::numeric_limits<double>::infinity();
+    for (const double level : {0.0, -2.0, 2.0}) {
+      MinimizeOptions solver;
+      solver.feasibility = kFeasibility;
+      solver.maxEvaluations = 100;
+      MinimizeResult result = minimize([&](const Vector& q) { return evaluate(q, softShare); },
+                                       level * everything, solver);
+      solver.range = 200.0;
+      result = minimize([&](const Vector& q) { return evaluate(q, sharpShare); }, 2.0 * result.x,
+                        solver);
+      const bool feasible = std::max(result.violation, best.violation) <= kFeasibility;
+      if (feasible ? result.objective < best.objective : result.violation < best.violation) {
+        best = std::move(result);
+      }
+    }
+    return best;
+  }
+
+  Moments massMoments(const Vector& q) const { return bodyOf(hollow(q, sharpShare)); }
+  double objective(const Vector& q) const { return evaluate(q, sharpShare).objective; }
+
+  /// Of (1, x, y, z, xx, yy, zz, xy, yz, zx).
+  Moments quadric(const Vector& q) const {
+    Moments quadric = Moments::Zero();
+    quadric.head(functions_.whitening.rows()) = functions_.whitening * q;
+    return quadric;
+  }
+
+private:
+  using ShareOf = Share (*)(double);
   struct Hollow {
     Moments cavity;
     MomentJacobian jacobian; ///< by q
   };
-  const auto hollow = [&](const Vector& q, Share (*shareOf)(double)) {
-    Hollow h{Moments::Zero(), MomentJacobian::Zero(10, rank)};
+
+  Hollow hollow(const Vector& q, ShareOf shareOf) const {
+    const RowMatrix& psi = functions_.means;
+    Hollow h{Moments::Zero(), MomentJacobian::Zero(10, psi.cols())};
     const Vector t = psi * q;
-    for (Eigen::Index c = 0; c < cells.rows(); ++c) {
+    for (Eigen::Index c = 0; c < cells_.rows(); ++c) {
       const Share share = shareOf(t[c]);
-      if (share.value != 0.0) h.cavity += share.value * cells.row(c).transpose();
+      if (share.value != 0.0) h.cavity += share.value * cells_.row(c).transpose();
       if (share.slope != 0.0) {
-        h.jacobian.noalias() += share.slope * cells.row(c).transpose() * psi.row(c);
+        h.jacobian.noalias() += share.slope * cells_.row(c).transpose() * psi.row(c);
       }
     }
     return h;
-  };
-  const auto bodyOf = [&](const Hollow& h) {
-    return Moments(solid + (fillDensity - 1.0) * h.cavity);
-  };
-  const auto evaluate = [&](const Vector& q, Share (*shareOf)(double)) {
+  }
+
+  Moments bodyOf(const Hollow& h) const { return solid_ + filling_ * h.cavity; }
+
+  Evaluation evaluate(const Vector& q, ShareOf shareOf) const {
     const Hollow h = hollow(q, shareOf);
-    return evaluateBody(goal, weights, bodyOf(h), (fillDensity - 1.0) * h.jacobian,
-                        1.0 - h.cavity[0] / solid[0], -h.jacobian.row(0).transpose() / solid[0]);
-  };
-  // Half of every cell, almost nothing, almost everything: for several goals there is more than one
-  // minimum.
-  const Vector everything = psi.transpose() * cells.col(0) / volume;
-  MinimizeResult best;
-  best.violation = std::numeric_limits<double>::infinity();
-  for (const double level : {0.0, -2.0, 2.0}) {
-    MinimizeOptions solver;
-    solver.feasibility = kFeasibility;
-    solver.maxEvaluations = 100;
-    MinimizeResult result = minimize([&](const Vector& q) { return evaluate(q, softShare); },
-                                     level * everything, solver);
-    solver.range = 200.0;
-    result =
-        minimize([&](const Vector& q) { return evaluate(q, sharpShare); }, 2.0 * result.x, solver);
-    const bool feasible = std::max(result.violation, best.violation) <= kFeasibility;
-    if (feasible ? result.objective < best.objective : result.violation < best.violation) {
-      best = std::move(result);
-    }
+    return evaluateBody(goal_, weights_, bodyOf(h), filling_ * h.jacobian,
+                        1.0 - h.cavity[0] / solid_[0], -h.jacobian.row(0).transpose() / solid_[0]);
   }
-  limit.massMoments = bodyOf(hollow(best.x, sharpShare));
-  limit.objective = evaluate(best.x, sharpShare).objective;
-  limit.violation = largestViolation(goal, limit.massMoments);
-  limit.quadric.head(terms) = whitening * best.x;
-  if (limit.violation > OptimalBound::kReachable) {
-    limit.bestVerdict = bestVerdict(goal, solid, fillDensity, cells);
+
+  const Goal& goal_;
+  const Weights& weights_;
+  const Moments& solid_;
+  double filling_; ///< density of the filling less that of the material
+  const AdmissibleCells& cells_;
+  Functions functions_;
+};
+
+} // namespace
+
+OptimalBound optimalBound(const Goal& goal, const Weights& weights, const Moments& solid,
+                          double fillDensity, const AdmissibleCells& cells) {
+  const HollowBodies bodies(goal, weights, solid, fillDensity, cells);
+  const Vector q = bodies.best().x;
+  OptimalBound bound;
+  bound.massMoments = bodies.massMoments(q);
+  bound.objective = bodies.objective(q);
+  bound.violation = largestViolation(goal, bound.massMoments);
+  bound.quadric = bodies.quadric(q);
+  if (bound.violation > OptimalBound::kReachable) {
+    bound.bestVerdict = bestVerdict(goal, solid, fillDensity, cells);
   }
-  return limit;
+  return bound;
 }
 
-Vector offsetsTowards(const OptimalBound& limit, const Points& vertices, const Points& directions,
+Vector offsetsTowards(const OptimalBound& bound, const Points& vertices, const Points& directions,
                       const Vector& lower, const Vector& upper) {
   constexpr int kSteps = 32;
   Vector offsets = upper;
@@ -325,7 +197,9 @@ Vector offsetsTowards(const OptimalBound& limit, const Points& vertices, const P
     for (int step = 0; step <= kSteps && lower[v] < upper[v]; ++step) {
       const double offset = lower[v] + (upper[v] - lower[v]) * step / kSteps;
       const Vec3 y = (vertices.row(v) - offset * directions.row(v)).transpose();
-      if (cubeMoments(y, 0.0, 1.0).dot(limit.quadric) <= 0.0) continue;
+      Moments monomials;
+      monomials << 1.0, y, y.cwiseAbs2(), y.x() * y.y(), y.y() * y.z(), y.z() * y.x();
+      if (monomials.dot(bound.quadric) <= 0.0) continue;
       offsets[v] = offset;
       break;
     }

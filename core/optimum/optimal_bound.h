@@ -3,22 +3,11 @@
 
 #include "core/base/options.h"
 #include "core/goals/goal.h"
-#include "core/query/triangle_tree.h"
+#include "core/optimum/admissible_cells.h"
 
 #include <optional>
 
 namespace massprops {
-
-/// What may be hollow: the points of the body that are at least a wall away from its surface, in
-/// small cells. c×10, a row a cell: the integrals of (1, x, y, z, xx, yy, zz, xy, yz, zx) over the
-/// part of it that may be hollow. Working frame.
-using AdmissibleCells = Eigen::Matrix<double, Eigen::Dynamic, 10, Eigen::RowMajor>;
-
-/// Cubes, about `cells` of them in the model's bounding box. Those at the border of the region are
-/// divided once more, and the border is taken as a plane in each part: the region comes out too
-/// large at its edges, if anything, never too small.
-/// \pre the surface is closed and outward
-AdmissibleCells admissibleCells(const TriangleTree& surface, double wall, int cells = 20000);
 
 /// A body hollowed where a quadric is positive, the shape of the best cavity for every goal that
 /// depends on mass moments alone: a plane's side for those without inertia. [HLW24, Sec. 4; docs/
@@ -42,9 +31,9 @@ struct OptimalBound {
 OptimalBound optimalBound(const Goal& goal, const Weights& weights, const Moments& solid,
                           double fillDensity, const AdmissibleCells& cells);
 
-/// Offsets with which the inner surface comes nearest to the limit's cavity: every point goes in
+/// Offsets with which the inner surface comes nearest to that body's cavity: every point goes in
 /// until the quadric is positive, as far as its bounds allow. n lengths.
-Vector offsetsTowards(const OptimalBound& limit, const Points& vertices, const Points& directions,
+Vector offsetsTowards(const OptimalBound& bound, const Points& vertices, const Points& directions,
                       const Vector& lower, const Vector& upper);
 
 } // namespace massprops

@@ -114,7 +114,7 @@ void tighten(const CavityTask& task, const CavityResult& result, const VertexAdj
     const Vec3 c = result.outer.row(nearest[2]).transpose();
     const Vec3 weights = nearestWeights(y, a, b, c);
     const Vec3 away = (y - (weights[0] * a + weights[1] * b + weights[2] * c)).normalized();
-    const double missing = task.wall - result.inspection.wall[v];
+    const double missing = kBeyondWall * task.wall - result.inspection.wall[v];
     const double gain = -away.dot(task.model.field.directions.row(v).transpose());
     int& failures = thinRounds[static_cast<std::size_t>(v)];
     const double step = std::ldexp(kOverstep * missing / std::max(std::abs(gain), kLeastGain),

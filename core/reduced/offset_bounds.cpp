@@ -16,16 +16,16 @@ constexpr double kLeastClearance = 0.05;
 constexpr double kLeastRoom = 0.02;
 /// What a vertex keeps of its height above the ground, lest it widen the contact area.
 constexpr double kLeastHeight = 0.5;
-constexpr double kWallSlack = 1e-3;
 
 } // namespace
 
 OffsetBounds innerBounds(const OffsetField& field, double wall, double factor) {
-  return {wall * field.clearance.cwiseMax(kLeastClearance).cwiseInverse(), factor * field.reach};
+  return {kBeyondWall * wall * field.clearance.cwiseMax(kLeastClearance).cwiseInverse(),
+          factor * field.reach};
 }
 
 OffsetBounds innerBoundsOfCopy(const OffsetField& field, double wall, double factor) {
-  return {wall * field.meanClearance.cwiseMax(kLeastClearance).cwiseInverse(),
+  return {kBeyondWall * wall * field.meanClearance.cwiseMax(kLeastClearance).cwiseInverse(),
           factor * field.reach};
 }
 
@@ -33,7 +33,6 @@ OffsetBounds keepingWall(const Points& vertices, const TriangleTree& surface,
                          const OffsetField& field, OffsetBounds bounds, double wall) {
   constexpr int kMostSteps = 20;
   constexpr Eigen::Index kChunk = 1024;
-  const double enough = (1.0 - kWallSlack) * wall;
   forChunks(vertices.rows(), kChunk, [&](const Chunk& chunk) {
     int hint = -1;
     for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
@@ -41,10 +40,10 @@ OffsetBounds keepingWall(const Points& vertices, const TriangleTree& surface,
       for (int step = 0; step < kMostSteps && offset <= bounds.upper[v]; ++step) {
         // The distance grows by at most the step, so that no step goes too far.
         const Vec3 y = (vertices.row(v) - offset * field.directions.row(v)).transpose();
-        const TriangleTree::Hit hit = surface.nearest(y, enough * enough, hint);
+        const TriangleTree::Hit hit = surface.nearest(y, wall * wall, hint);
         if (hit.face < 0) break;
         hint = hit.face;
-        offset += wall - std::sqrt(hit.squaredDistance);
+        offset += kBeyondWall * wall - std::sqrt(hit.squaredDistance);
       }
     }
   });

@@ -14,13 +14,17 @@ struct OffsetBounds {
   Vector lower, upper;
 };
 
-/// Inner surface: l_i = wall / clearance_i, so that the displaced faces are at least `wall` behind
-/// their originals, measured perpendicular to them; u_i = factor·r_i. Where the body is too thin,
-/// l_i > u_i. docs/math.md "Wall thickness".
+/// Bounds aim at so many walls: what ends a little short of them, by the host's rounding or because
+/// a correction did not quite do, still keeps the wall.
+constexpr double kBeyondWall = 1.0015;
+
+/// Inner surface: l_i = kBeyondWall·wall / clearance_i, so that the displaced faces are more than
+/// `wall` behind their originals, measured perpendicular to them; u_i = factor·r_i. Where the body
+/// is too thin, l_i > u_i. docs/math.md "Wall thickness".
 OffsetBounds innerBounds(const OffsetField& field, double wall, double factor);
 
-/// The same for a coarse copy, whose faces are turned against the surface's own: l_i = wall /
-/// cosine between d_i and the mean normal at vertex i. `keepingWall` sees to the rest.
+/// The same for a coarse copy, whose faces are turned against the surface's own, with the cosine
+/// between d_i and the mean normal at vertex i for clearance_i. `keepingWall` sees to the rest.
 OffsetBounds innerBoundsOfCopy(const OffsetField& field, double wall, double factor);
 
 /// The same bounds with the lower ones raised until every vertex x_i − l_i d_i is at least `wall`

@@ -1,10 +1,14 @@
 // What the answer looks like: marks, and bodies cut open.
 #include "core/answer/cutaway.h"
+#include "core/answer/picture.h"
+#include "core/goals/goals.h"
 #include "core/mesh/annotations.h"
+#include "core/model/posed_model.h"
 #include "core/model/repair.h"
 #include "core/physics/hydrostatics.h"
 #include "core/physics/moments.h"
 #include "core/pipeline.h"
+#include "core/reduced/cavity_search.h"
 
 #include "judge/checks.h"
 #include "samples.h"
@@ -13,8 +17,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace massprops::testing {
 namespace {
@@ -91,7 +99,8 @@ TEST(Cutaway, HalvesTheMaterialOfAHollowBox) {
   // A plane that meets no vertex.
   const Vec3 point(0.0, 0.3, 0.0);
   const Vec3 normal(0.0, 2.0, 0.0);
-  const ColouredMesh half = cutaway(material(outer, inner), inner.vertices.rows(), point, normal);
+  const ColouredMesh half =
+      cutaway(material(outer, inner), inner.vertices.rows(), point, normal).value();
   EXPECT_LE(half.mesh.vertices.col(1).maxCoeff(), 0.3 + 1e-12);
 
   const TriangleMesh cut = partOf(half, kCutColour);
@@ -104,11 +113,77 @@ TEST(Cutaway, HalvesTheMaterialOfAHollowBox) {
 }
 
 TEST(Cutaway, CutsThroughVerticesAndSolidBodies) {
-  const ColouredMesh half = cutaway(box({2.0, 2.0, 2.0}, 4), 0, Vec3::Zero(), Vec3::UnitX());
+  const ColouredMesh half =
+      cutaway(box({2.0, 2.0, 2.0}, 4), 0, Vec3::Zero(), Vec3::UnitX()).value();
   EXPECT_NEAR(areaOf(partOf(half, kCutColour)), 4.0, 1e-9);
   EXPECT_EQ(partOf(half, kCavityColour).faces.rows(), 0);
   EXPECT_NEAR(moments(half.mesh.vertices, half.mesh.faces)[0], 4.0, 1e-9);
-  EXPECT_EQ(cutaway(box({1.0, 1.0, 1.0}), 0, {-1.0, 0.0, 0.0}, Vec3::UnitX()).mesh.faces.rows(), 0);
+  const auto nothing = cutaway(box({1.0, 1.0, 1.0}), 0, {-1.0, 0.0, 0.0}, Vec3::UnitX());
+  EXPECT_EQ(nothing.value().mesh.faces.rows(), 0);
+}
+
+/// A prism along z whose half with y > 0 is two legs that hang together by an edge on the z axis.
+TriangleMesh arch() {
+  TriangleMesh mesh;
+  const std::vector<Vec2> outline = {{-2, -1}, {2, -1}, {2, 1}, {1, 1}, {0, 0}, {-1, 1}, {-2, 1}};
+  const int n = static_cast<int>(outline.size());
+  mesh.vertices.resize(2 * n, 3);
+  for (int i = 0; i < n; ++i) {
+    const Vec2& p = outline[static_cast<std::size_t>(i)];
+    mesh.vertices.row(i) << p.x(), p.y(), 0.0;
+    mesh.vertices.row(n + i) << p.x(), p.y(), 1.0;
+  }
+  const std::vector<std::array<int, 3>> top = {
+      {0, 1, 4}, {1, 2, 3}, {1, 3, 4}, {0, 4, 5}, {0, 5, 6}};
+  std::vector<std::array<int, 3>> all;
+  for (const auto& [a, b, c] : top) {
+    all.push_back({n + a, n + b, n + c});
+    all.push_back({a, c, b});
+  }
+  for (int i = 0; i < n; ++i) {
+    const int j = (i + 1) % n;
+    all.push_back({i, j, n + j});
+    all.push_back({i, n + j, n + i});
+  }
+  mesh.faces.resize(static_cast<Eigen::Index>(all.size()), 3);
+  for (std::size_t f = 0; f < all.size(); ++f) {
+    mesh.faces.row(static_cast<Eigen::Index>(f)) << all[f][0], all[f][1], all[f][2];
+  }
+  return mesh;
+}
+
+TEST(Cutaway, IsNothingWhereTheHalfWouldHangTogetherByAnEdge) {
+  const TriangleMesh whole = arch();
+  ASSERT_TRUE(isClosedAndOriented(whole));
+  ASSERT_EQ(intersectingPairs(whole), 0U);
+  EXPECT_FALSE(cutaway(whole, 0, Vec3::Zero(), -Vec3::UnitY()));
+  // The other half is one piece.
+  EXPECT_TRUE(cutaway(whole, 0, Vec3::Zero(), Vec3::UnitY()));
+}
+
+TEST(PictureOf, SaysWhyThereIsNone) {
+  // The outer surface alone was moved, and the plane through its centre of mass cannot be cut
+  // along.
+  const TriangleMesh whole = arch();
+  PosedModel posed;
+  posed.vertices = whole.vertices;
+  posed.faces = whole.faces;
+  const TriangleTree surface(whole.vertices, whole.faces);
+  const OffsetField field;
+  const HarmonicBasis basis;
+  const SparseMatrix L;
+  const Vector mass;
+  const std::unique_ptr<Goal> goal = makeMassGoal(1.0, std::nullopt, Weights{}, 1.0);
+  CavityTask task{surface, whole.vertices, whole.faces, field, basis, L, mass, *goal};
+  task.solidMoments << 1, 0, 0, 0.5, 1, 1, 1, 0, 0, 0;
+  task.inputMoments << 1, 0.1, 0, 0.5, 1, 1, 1, 0, 0, 0;
+  CavityResult cavity;
+  cavity.status = CavityStatus::Found;
+  cavity.inner = Points::Zero(whole.vertices.rows(), 3);
+  cavity.outer = whole.vertices;
+  const PictureResult drawn = pictureOf(posed, task, *goal, cavity);
+  EXPECT_FALSE(drawn.picture);
+  EXPECT_EQ(drawn.failure.rfind("could not be drawn: ", 0), 0U) << drawn.failure;
 }
 
 TEST(LevelLines, GoRoundTheBody) {

@@ -68,7 +68,8 @@ class SamplesTest(HostTest):
 
         wall = measure.surface_distance(outer, inner)
         self.assertAlmostEqual(report["min_wall"] / wall, 1.0, delta=1e-5)
-        self.assertGreater(wall, 0.99 * parameter(script, "inner_lower_bound"))
+        # The host keeps parameters as floats.
+        self.assertGreaterEqual(wall, float(np.float32(parameter(script, "inner_lower_bound"))))
         self.assertLessEqual(report["objective_after"], report["objective_before"])
         return report
 

@@ -589,8 +589,8 @@ void checkSurface(const PropertyCase& c, const Result& result, const TriangleMes
   }
 
   const Separation apart = separation(inner, outer, c.wall);
-  found.require(apart.least >= 0.99 * c.wall, "the wall is ", apart.least, ", asked for ", c.wall,
-                " (", apart.least / c.wall, " of it)");
+  found.require(apart.least >= c.wall, "the wall is ", apart.least, ", asked for ", c.wall, " (",
+                apart.least / c.wall, " of it)");
   const double tolerance = 1e-9 * Upright(c.body, c.options.upAxis).length;
   found.near("min_wall", number(result, "min_wall"), apart.least, tolerance);
   found.require(result.innerWall.size() == inner.vertices.rows(), "a vertex has no wall");

@@ -59,5 +59,23 @@ TEST(Snapped, MovesByLessThanHalfAGridStepAndTwiceIsOnce) {
   EXPECT_EQ((snapped(once) - once).cwiseAbs().maxCoeff(), 0.0);
 }
 
+TEST(RoundOff, IsMoreThanWhatDistancesLoseOnTheirWayAndNotMuch) {
+  Random random(1);
+  for (const double far : {0.0, 3.0, 1e3, 1e6, 1e9}) {
+    for (int trial = 0; trial < 1000; ++trial) {
+      const Frame frame{rotationToUp(kAxes[static_cast<std::size_t>(trial) % 6]),
+                        far * 77.0 * random.vector(), 77.0};
+      const Points outer = toModel(frame, 0.5 * random.vector().transpose());
+      const Points inner = toModel(frame, 0.5 * random.vector().transpose());
+      const Points inspected = toWorking(frame, inner);
+      const Points delivered = toModel(frame, inspected);
+      const double measured = (inspected - snapped(toWorking(frame, outer))).norm();
+      const double stored = (delivered - outer).norm() / frame.length;
+      EXPECT_LE(std::abs(measured - stored), roundOff(frame)) << far;
+    }
+  }
+  EXPECT_LT(roundOff(Frame{Mat3::Identity(), {1e4, 0, 0}, 1.0}), 1e-9);
+}
+
 } // namespace
 } // namespace massprops::testing

@@ -57,7 +57,7 @@ void expectGoodCavity(const Result& result, const TriangleMesh& outer) {
   EXPECT_EQ(intersectingPairs(result.inner), 0U);
   EXPECT_EQ(intersectingPairs(result.inner, outer), 0U);
   EXPECT_TRUE(isInside(result.inner, outer));
-  EXPECT_GE(leastDistance(result.inner, outer), 0.99 * 0.01 * diagonal(outer));
+  EXPECT_GE(leastDistance(result.inner, outer), 0.01 * diagonal(outer));
 }
 
 void expectTheSameCavity(const Result& result, const Result& original) {
@@ -140,7 +140,7 @@ TEST(MendedInput, MayBeFarFromTheOrigin) {
   ASSERT_GT(result.inner.faces.rows(), 0);
   const TriangleMesh near = shifted(result.inner, {-1e6, 2e6, -3e6});
   EXPECT_EQ(intersectingPairs(result.inner), 0U);
-  EXPECT_GE(leastDistance(near, leaningPillar()), 0.99 * 0.01 * diagonal(model));
+  EXPECT_GE(leastDistance(near, leaningPillar()), 0.01 * diagonal(model));
   // The last digits of the coordinates change the skeleton a little.
   EXPECT_NEAR(number(result, "tip_angle_after"), number(resultOfPillar(), "tip_angle_after"), 1.5);
 }
@@ -195,6 +195,7 @@ TEST(MendedInput, MayHaveAllOfThisTogether) {
 
 TEST(LargestWall, WorksWhereTheWallAskedForDoesNot) {
   Options options;
+  options.goal = GoalKind::Mass; // which any cavity serves
   const TriangleMesh plate = box({1, 1, 0.1}, 10);
   options.innerLowerBound = 0.06;
   const Result none = optimizeMassProperties(plate, options);
@@ -205,7 +206,7 @@ TEST(LargestWall, WorksWhereTheWallAskedForDoesNot) {
   options.innerLowerBound = 0.99 * largest;
   const Result thin = optimizeMassProperties(plate, options);
   EXPECT_GT(thin.inner.faces.rows(), 0);
-  EXPECT_GE(leastDistance(thin.inner, plate), 0.99 * 0.99 * largest);
+  EXPECT_GE(leastDistance(thin.inner, plate), 0.99 * largest);
   EXPECT_THROW(thin.report.at("largest_wall"), std::out_of_range);
 }
 

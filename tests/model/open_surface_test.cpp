@@ -290,7 +290,7 @@ void expectShell(const OpenRun& run, double wall) {
   EXPECT_EQ(static_cast<double>(onSkin), boundaryEdges(run.skin));
   EXPECT_EQ(static_cast<double>(layer.faces.rows() - rows), 2.0 * boundaryEdges(run.skin));
   const double thinnest = leastDistance({layer.vertices, offset.topRows(rows)}, run.skin);
-  EXPECT_GE(thinnest, 0.99 * wall);
+  EXPECT_GE(thinnest, wall);
   EXPECT_NEAR(number(run, "min_wall"), thinnest, 1e-6 * size);
 }
 

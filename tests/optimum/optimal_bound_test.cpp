@@ -21,6 +21,7 @@
 #include <numeric>
 #include <ostream>
 #include <string>
+#include <utility>
 
 namespace massprops::testing {
 namespace {
@@ -45,43 +46,6 @@ double leastValue(const F& f, double low, double high) {
     (f(a) < f(b) ? high : low) = f(a) < f(b) ? b : a;
   }
   return f(0.5 * (low + high));
-}
-
-TEST(AdmissibleCells, OfABoxFillTheSmallerBox) {
-  const double wall = 0.07;
-  const TriangleMesh outer = box({1.0, 1.5, 2.0}, 2);
-  const AdmissibleCells cells = admissibleCells(treeOf(outer), wall);
-  const Eigen::Array3d inner = Eigen::Array3d(1.0, 1.5, 2.0) - 2 * wall;
-  const double volume = inner.prod();
-  const Eigen::RowVectorXd sums = cells.colwise().sum();
-  // Parts that an edge cuts are taken for larger than they are.
-  EXPECT_GT(sums[0], volume);
-  EXPECT_NEAR(sums[0], volume, 2e-3 * volume);
-  for (int axis = 0; axis < 3; ++axis) {
-    EXPECT_NEAR(sums[1 + axis], 0.0, 1e-3 * volume);
-    const double second = volume * inner[axis] * inner[axis] / 12;
-    EXPECT_NEAR(sums[4 + axis], second, 5e-3 * second);
-    EXPECT_NEAR(sums[7 + axis], 0.0, 1e-3 * volume);
-  }
-}
-
-TEST(AdmissibleCells, LeaveOutWhatIsOutsideWhereTheWallIsThinnerThanACell) {
-  const double wall = 1e-3;
-  const TriangleMesh outer = torus(1.0, 0.4, 96, 48);
-  const AdmissibleCells cells = admissibleCells(treeOf(outer), wall, 5000);
-  const double volume = moments(outer.vertices, outer.faces)[0];
-  const double area = 4 * kPi * kPi * 0.4;
-  EXPECT_NEAR(cells.col(0).sum(), volume - area * wall, 1e-2 * volume);
-}
-
-TEST(AdmissibleCells, AreNoneWhereTheWallIsTooThick) {
-  const TriangleMesh outer = box({1.0, 1.0, 1.0}, 1);
-  EXPECT_EQ(admissibleCells(treeOf(outer), 0.6).rows(), 0);
-}
-
-TEST(AdmissibleCells, AreBoundedInNumberForSheetsOfAlmostNoThickness) {
-  const TriangleMesh sheet = box({1.0, 1.0, 1e-12}, 4);
-  EXPECT_LT(admissibleCells(treeOf(sheet), 1e-14).rows(), 1000000);
 }
 
 TEST(OptimalBound, OfAStandingBoxIsHollowAboveItsCentreOfMass) {
@@ -247,6 +211,23 @@ TEST_P(SampleLimit, IsWhatBruteForceFindsOnVoxels) {
 INSTANTIATE_TEST_SUITE_P(Samples, SampleLimit,
                          ::testing::Values("box_on_corner", "toy_dinosaur", "leaning_ring"));
 
+/// To 1e-3 they would not do: gap_to_limit cannot compare such a bound with a result that keeps
+/// them, and is 0 % instead of 4.1 % for the top and of 0.4 % for the duck.
+TEST(OptimalBound, KeepsConstraintsAsTightlyAsTheResultHasTo) {
+  for (const auto& [sample, kind] : {std::pair("tilted_ellipsoid_top", GoalKind::Spin),
+                                     std::pair("bath_duck", GoalKind::Float)}) {
+    Options options;
+    options.goal = kind;
+    options.waterLevel = 0.4;
+    const PosedModel posed = makePosedModel(makeSolid(sampleMesh(sample)), options);
+    const auto goal = makeGoal(options, posed, posed.vertices);
+    const OptimalBound bound =
+        optimalBound(*goal, options.weights, moments(posed.vertices, posed.faces), 0.0,
+                     admissibleCells({posed.vertices, posed.faces}, posed.wall));
+    EXPECT_LE(bound.violation, 1e-6) << sample;
+  }
+}
+
 class SampleGap : public ::testing::TestWithParam<const char*> {};
 
 double gapAtTwoPerCent(const std::string& sample) {
@@ -350,13 +331,13 @@ TEST_P(OutOfReach, IsSaidWithTheBestThatCouldBeHad) {
   }
 }
 
-TEST(OffsetsTowardsLimit, BeginWhereTheQuadricIsPositive) {
+TEST(OffsetsTowards, BeginWhereTheQuadricIsPositive) {
   const TriangleMesh ball = sphere(6);
-  OptimalBound limit;
-  limit.quadric << -0.25, 0, 0, 1, 0, 0, 0, 0, 0, 0; // z > 0.25
+  OptimalBound bound;
+  bound.quadric << -0.25, 0, 0, 1, 0, 0, 0, 0, 0, 0; // z > 0.25
   const Vector lower = Vector::Constant(ball.vertices.rows(), 0.1);
   const Vector upper = Vector::Constant(ball.vertices.rows(), 0.9);
-  const Vector offsets = offsetsTowards(limit, ball.vertices, ball.vertices, lower, upper);
+  const Vector offsets = offsetsTowards(bound, ball.vertices, ball.vertices, lower, upper);
   for (Eigen::Index v = 0; v < offsets.size(); ++v) {
     const double z = ball.vertices(v, 2);
     EXPECT_EQ(offsets[v], z * 0.9 > 0.25 ? 0.1 : 0.9) << "at height " << z;

@@ -1,0 +1,189 @@
+#include "core/optimum/admissible_cells.h"
+
+#include "core/base/parallel.h"
+#include "core/physics/moments.h"
+#include "core/query/point_in_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace massprops {
+namespace {
+
+/// Integrals over a cube of volume `volume` that is centred at p and as wide as `edge`.
+Moments cubeMoments(const Vec3& p, double edge, double volume) {
+  const double spread = edge * edge / 12.0;
+  Moments m;
+  m << 1.0, p, p.cwiseAbs2() + Vec3::Constant(spread), p.x() * p.y(), p.y() * p.z(), p.z() * p.x();
+  return volume * m;
+}
+
+constexpr int kNone = -1;
+
+/// An octree that is fine where the border of the region may be. Levels count upwards from the
+/// parts of border cells; 1 are the cells.
+class RegionSampler {
+public:
+  RegionSampler(const TriangleTree& surface, double wall, double edge)
+      : surface_(surface), wall_(wall), edge_(edge) {}
+
+  void add(const Vec3& centre) { visit(centre, kTop, kNone, {}); }
+
+  static constexpr int kTop = 4;
+  static double topEdge(double edge) { return edge * (1 << (kTop - 1)); }
+
+  AdmissibleCells cells() const {
+    std::vector<Moments> result;
+    int cell = kNone;
+    for (const Part& part : parts_) {
+      const double edge = edge_ * std::ldexp(1.0, part.level - 1);
+      if (part.level > 0) {
+        const int n = 1 << (part.level - 1);
+        const Vec3 first = part.centre - Vec3::Constant(0.5 * (edge - edge_));
+        for (int j = 0; j < n * n * n; ++j) {
+          const int layer = j / n;
+          const Eigen::Vector3i place(j % n, layer % n, layer / n);
+          result.emplace_back(
+              cubeMoments(first + edge_ * place.cast<double>(), edge_, edge_ * edge_ * edge_));
+        }
+        continue;
+      }
+      // The part of the cube behind the plane that is a wall away from the surface.
+      const double width = edge * part.inwards.cwiseAbs().sum();
+      const double share = std::clamp(0.5 + (part.depth - wall_) / width, 0.0, 1.0);
+      if (share == 0.0) continue;
+      if (part.cell != cell) result.emplace_back(Moments::Zero());
+      cell = part.cell;
+      result.back() += cubeMoments(part.centre + 0.5 * width * (1.0 - share) * part.inwards, edge,
+                                   share * edge * edge * edge);
+    }
+    AdmissibleCells rows(static_cast<Eigen::Index>(result.size()), 10);
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      rows.row(static_cast<Eigen::Index>(i)) = result[i].transpose();
+    }
+    return rows;
+  }
+
+private:
+  struct Part {
+    Vec3 centre;
+    double depth; ///< behind the surface, negative outside
+    Vec3 inwards; ///< unit, where the depth grows
+    int level;    ///< 0: part of a border cell; else a cube of cells that are all beyond the wall
+    int cell;     ///< number of the border cell
+  };
+
+  /// The surface does not come into it, so that all of it is on one side.
+  struct Ball {
+    Vec3 centre;
+    double radius;
+    bool isInside;
+  };
+
+  /// The largest ball around a point that is part of a known one; of no radius outside of all.
+  Ball knownAround(const Vec3& centre) const {
+    Ball best{centre, 0.0, false};
+    for (const Ball& ball : known_) {
+      const double squared = (centre - ball.centre).squaredNorm();
+      if (squared >= ball.radius * ball.radius) continue;
+      const double radius = ball.radius - std::sqrt(squared);
+      if (radius > best.radius) best = {centre, radius, ball.isInside};
+    }
+    return best;
+  }
+
+  /// `near`: a point of the surface, if any is known.
+  void visit(const Vec3& centre, int level, int cell, const TriangleTree::Hit& near) {
+    const double size = edge_ * std::ldexp(1.0, level - 1);
+    const double half = 0.5 * std::sqrt(3.0) * size;
+    if (near.face >= 0 && (centre - near.point).norm() <= wall_ - half) return;
+    Ball ball = knownAround(centre);
+    const bool isSideKnown = ball.radius > 0.0;
+    // So far outside no cube has anything to be hollow, and the middle of a border cell's part no
+    // plane that would leave it any.
+    const double nothing = level > 0 ? half : half - wall_;
+    if (isSideKnown && !ball.isInside && ball.radius >= nothing) return;
+    // Farther away the surface does not matter.
+    const double far =
+        isSideKnown && ball.isInside ? wall_ + half : std::numeric_limits<double>::infinity();
+    TriangleTree::Hit nearest;
+    if (ball.radius < far) nearest = surface_.nearest(centre, far * far, near.face);
+    if (nearest.face < 0) {
+      known_.push_back({centre, far, true});
+      parts_.push_back({centre, far, Vec3::UnitX(), level, cell});
+      return;
+    }
+    ball.radius = std::sqrt(nearest.squaredDistance);
+    if (ball.radius <= wall_ - half) return;
+    // Asked only where it tells the side of all parts: their middles are half as far as corners.
+    if (isSideKnown || ball.radius > 0.5 * half || level == 0) {
+      if (!isSideKnown) ball.isInside = PointInMesh(surface_).contains(centre, nearest);
+      known_.push_back(ball);
+      if (!ball.isInside && ball.radius >= nothing) return;
+    }
+    if (level == 0 || (ball.isInside && ball.radius >= wall_ + half)) {
+      const double sign = ball.isInside ? 1.0 : -1.0;
+      const Vec3 away = (centre - nearest.point) / std::max(ball.radius, 1e-300);
+      parts_.push_back({centre, sign * ball.radius, sign * away, level, cell});
+      return;
+    }
+    if (level == 1) cell = borderCells_++;
+    const std::size_t known = known_.size();
+    // The ball around the part that is farthest from the surface spares most of the others.
+    const Vec3 away = centre - nearest.point;
+    const int farthest =
+        (away.x() > 0.0 ? 1 : 0) + (away.y() > 0.0 ? 2 : 0) + (away.z() > 0.0 ? 4 : 0);
+    for (int i = 0; i < 8; ++i) {
+      const int corner = i ^ farthest;
+      const Vec3 step((corner & 1) != 0 ? 0.25 : -0.25, (corner & 2) != 0 ? 0.25 : -0.25,
+                      (corner & 4) != 0 ? 0.25 : -0.25);
+      visit(centre + size * step, level - 1, cell, nearest);
+    }
+    known_.resize(known);
+  }
+
+  const TriangleTree& surface_;
+  double wall_;
+  double edge_;
+  std::vector<Part> parts_;
+  std::vector<Ball> known_; ///< around the cubes that the present one is part of, and their parts
+  int borderCells_ = 0;
+};
+
+} // namespace
+
+AdmissibleCells admissibleCells(const TriangleTree& surface, double wall, int cells) {
+  const Vec3 low = surface.vertices().colwise().minCoeff();
+  const Vec3 high = surface.vertices().colwise().maxCoeff();
+  const Vec3 extent = high - low;
+  if (2.0 * wall >= extent.minCoeff()) return {};
+  // Sheets of almost no thickness would need cells without number.
+  constexpr double kMostAlongASide = 400.0;
+  const double edge =
+      std::max(std::cbrt(extent.prod() / cells), extent.maxCoeff() / kMostAlongASide);
+  const double step = RegionSampler::topEdge(edge);
+  const Eigen::Array<Eigen::Index, 3, 1> counts =
+      ((high - low) / step).array().ceil().max(1.0).cast<Eigen::Index>();
+  std::vector<AdmissibleCells> parts(static_cast<std::size_t>(counts.prod()));
+  forChunks(counts.prod(), 1, [&](const Chunk& chunk) {
+    const Eigen::Index column = chunk.number / counts.z();
+    const Eigen::Array<Eigen::Index, 3, 1> place(column / counts.y(), column % counts.y(),
+                                                 chunk.number % counts.z());
+    RegionSampler sampler(surface, wall, edge);
+    sampler.add(low + step * (place.cast<double>() + 0.5).matrix());
+    parts[static_cast<std::size_t>(chunk.number)] = sampler.cells();
+  });
+  Eigen::Index count = 0;
+  for (const AdmissibleCells& part : parts) count += part.rows();
+  AdmissibleCells all(count, 10);
+  Eigen::Index row = 0;
+  for (const AdmissibleCells& part : parts) {
+    all.middleRows(row, part.rows()) = part;
+    row += part.rows();
+  }
+  return all;
+}
+
+} // namespace massprops

@@ -1,0 +1,56 @@
+// What may be hollow, against closed forms.
+#include "core/optimum/admissible_cells.h"
+
+#include "core/physics/moments.h"
+#include "shapes.h"
+
+#include <gtest/gtest.h>
+
+namespace massprops::testing {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+TriangleTree treeOf(const TriangleMesh& mesh) {
+  return {mesh.vertices, mesh.faces};
+}
+
+TEST(AdmissibleCells, OfABoxFillTheSmallerBox) {
+  const double wall = 0.07;
+  const TriangleMesh outer = box({1.0, 1.5, 2.0}, 2);
+  const AdmissibleCells cells = admissibleCells(treeOf(outer), wall);
+  const Eigen::Array3d inner = Eigen::Array3d(1.0, 1.5, 2.0) - 2 * wall;
+  const double volume = inner.prod();
+  const Eigen::RowVectorXd sums = cells.colwise().sum();
+  // Parts that an edge cuts are taken for larger than they are.
+  EXPECT_GT(sums[0], volume);
+  EXPECT_NEAR(sums[0], volume, 2e-3 * volume);
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(sums[1 + axis], 0.0, 1e-3 * volume);
+    const double second = volume * inner[axis] * inner[axis] / 12;
+    EXPECT_NEAR(sums[4 + axis], second, 5e-3 * second);
+    EXPECT_NEAR(sums[7 + axis], 0.0, 1e-3 * volume);
+  }
+}
+
+TEST(AdmissibleCells, LeaveOutWhatIsOutsideWhereTheWallIsThinnerThanACell) {
+  const double wall = 1e-3;
+  const TriangleMesh outer = torus(1.0, 0.4, 96, 48);
+  const AdmissibleCells cells = admissibleCells(treeOf(outer), wall, 5000);
+  const double volume = moments(outer.vertices, outer.faces)[0];
+  const double area = 4 * kPi * kPi * 0.4;
+  EXPECT_NEAR(cells.col(0).sum(), volume - area * wall, 1e-2 * volume);
+}
+
+TEST(AdmissibleCells, AreNoneWhereTheWallIsTooThick) {
+  const TriangleMesh outer = box({1.0, 1.0, 1.0}, 1);
+  EXPECT_EQ(admissibleCells(treeOf(outer), 0.6).rows(), 0);
+}
+
+TEST(AdmissibleCells, AreBoundedInNumberForSheetsOfAlmostNoThickness) {
+  const TriangleMesh sheet = box({1.0, 1.0, 1e-12}, 4);
+  EXPECT_LT(admissibleCells(treeOf(sheet), 1e-14).rows(), 1000000);
+}
+
+} // namespace
+} // namespace massprops::testing
