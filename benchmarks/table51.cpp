@@ -1,5 +1,6 @@
-// Prints the rows of [Thesis, Table 5.1] for our samples, next to the published time, to what
-// CGAL's skeletonisation alone takes on the same mesh, and to what the moments cost.
+// Prints the rows of [Thesis, Table 5.1] for our samples, each over the published times of its
+// stages, and besides what CGAL's skeletonisation alone takes on the same mesh and what the moments
+// cost.
 // benchmarks/results.md keeps the output with the machine named.
 #include "core/base/stopwatch.h"
 #include "core/physics/moments.h"
@@ -34,15 +35,26 @@ using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
 constexpr int kRuns = 5;
 
+/// Seconds, as the columns that we print. The published stages do not always add up to the total.
+struct Stages {
+  double skeleton, harmonics, optimization, matrices, total;
+};
+
 struct Sample {
   const char* file;
   GoalKind goal;
-  double publishedSeconds; ///< total in [Thesis, Table 5.1]; 0: not known to us
+  Stages thesis, reference; ///< [Thesis, Table 5.1]
 };
 
 constexpr Sample kSamples[] = {
-    {"box_on_corner.ply", GoalKind::Stand, 7.1},
-    {"tilted_ellipsoid_top.ply", GoalKind::Spin, 0.0},
+    {"box_on_corner.ply",
+     GoalKind::Stand,
+     {3.216, 0.315, 3.510, 0.037, 7.078},
+     {3.216, 0.597, 4.402, 0.830, 9.045}},
+    {"tilted_ellipsoid_top.ply",
+     GoalKind::Spin,
+     {0.320, 0.025, 0.063, 0.015, 0.423},
+     {0.320, 0.031, 1.512, 0.136, 1.999}},
 };
 
 Mesh readMesh(const std::string& path) {
@@ -86,8 +98,8 @@ double medianSeconds(const std::function<void()>& work) {
   return median(seconds);
 }
 
-/// CGAL as its manual shows it. The mesh type must not be the one of core/skeleton.cpp: both
-/// instantiations would be the same to the linker.
+/// CGAL as its manual shows it. The mesh type must not be the one of core/reduced/skeleton.cpp:
+/// both instantiations would be the same to the linker.
 double cgalSkeletonSeconds(const Mesh& mesh) {
   using Polyhedron = CGAL::Polyhedron_3<Kernel>;
   Polyhedron polyhedron;
@@ -142,6 +154,11 @@ double number(const Result& result, const char* key) {
   return std::get<double>(result.report.at(key));
 }
 
+void printRow(const char* name, const char* vertices, const Stages& s) {
+  std::printf("%-26s %8s %9.3f %9.3f %9.3f %9.4f %9.3f", name, vertices, s.skeleton, s.harmonics,
+              s.optimization, s.matrices, s.total);
+}
+
 void printSample(const Sample& sample, double memory) {
   const Mesh mesh = readMesh(std::string(MASSPROPS_SAMPLE_DIR) + "/" + sample.file);
   const TriangleMesh model = arrays(mesh);
@@ -168,15 +185,15 @@ void printSample(const Sample& sample, double memory) {
   const double plain = cgalSkeletonSeconds(mesh);
   const double seconds = median(total);
 
-  std::printf("%-26s %8ld %9.3f %9.3f %9.3f %9.4f %9.3f %11.6f %11.6f", sample.file,
-              static_cast<long>(model.vertices.rows()), median(skeleton), median(basis),
-              median(optimization), matrices, seconds, number(result, "objective_before"),
+  const std::string vertices = std::to_string(model.vertices.rows());
+  printRow(sample.file, vertices.c_str(),
+           {median(skeleton), median(basis), median(optimization), matrices, seconds});
+  std::printf(" %11.6f %11.6f\n", number(result, "objective_before"),
               number(result, "objective_after"));
-  if (sample.publishedSeconds > 0.0) {
-    std::printf(" %10.1f\n", sample.publishedSeconds);
-  } else {
-    std::printf(" %10s\n", "-");
-  }
+  printRow("  published, thesis", "", sample.thesis);
+  std::puts("");
+  printRow("  published, reference", "", sample.reference);
+  std::puts("");
   std::printf("  CGAL's skeletonisation alone %.3f s; total / skeletonisation alone %.2f; "
               "optimisation / total %.1f %%\n",
               plain, seconds / plain, 100.0 * median(optimization) / seconds);
@@ -192,8 +209,8 @@ int main() {
     std::vector<double> memory;
     for (const Sample& sample : kSamples) memory.push_back(peakMegabytes(sample));
     std::printf("Medians of %d runs, seconds of wall time.\n", kRuns);
-    std::printf("%-26s %8s %9s %9s %9s %9s %9s %11s %11s %10s\n", "model", "vertices", "skeleton",
-                "harmonics", "optimis.", "matrices", "total", "f before", "f after", "published");
+    std::printf("%-26s %8s %9s %9s %9s %9s %9s %11s %11s\n", "model", "vertices", "skeleton",
+                "harmonics", "optimis.", "matrices", "total", "f before", "f after");
     for (std::size_t i = 0; i < memory.size(); ++i) printSample(kSamples[i], memory[i]);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "%s\n", e.what());

@@ -19,10 +19,11 @@ struct Result {
   /// inner surface together bound the material. Without vertices and faces when nothing can be
   /// hollowed. Same coordinates as the input.
   TriangleMesh inner;
-  /// Distance of every vertex of `inner` and the triangles around it from the outer surface.
+  /// Distance of every vertex of `inner` from the outer surface.
   Vector innerWall;
-  /// The outer surface when it is not the input's: moved, for `Options::outerUpperBound` > 0, or
-  /// without the cavities that the input had already.
+  /// The outer surface when it is not the input's: moved, for `Options::outerUpperBound` > 0,
+  /// without the cavities that the input had already, or with components flipped that faced the
+  /// wrong way.
   std::optional<TriangleMesh> outer;
   /// For `Options::showAnswer`, where there is a cavity or a moved outer surface.
   std::optional<Picture> picture;

@@ -191,7 +191,7 @@ Report report(const Preparation& model, const Foundation& foundation, const Sear
               const Options& options) {
   const Coarsening& coarse = foundation.coarse;
   Stages stages;
-  stages.repairs = model.solid.repairs().describe();
+  stages.repairs = model.solid.repairs();
   stages.skeletonFailures = coarse.skeletonFailures;
   stages.largestWall = found.largestWall;
   stages.secondsCheck = model.seconds + foundation.secondsCrossings;

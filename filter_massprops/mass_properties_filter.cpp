@@ -4,6 +4,7 @@
 #include "core/vcg_conversion.h"
 #include "filter_massprops/dialog_size.h"
 #include "filter_massprops/parameters.h"
+#include "filter_massprops/pymeshlab_names.h"
 
 #include <QApplication>
 #include <QMainWindow>
@@ -19,6 +20,7 @@ namespace {
 
 constexpr FilterId kFilter = 0;
 const char* const kName = "Mass Property Optimization";
+const char* const kCavityLayer = "inner offset surface";
 
 // Broken into lines here: the dialog of MeshLab 2020.09 reserves too little height for text that it
 // has to wrap, and does not scroll.
@@ -204,9 +206,9 @@ struct ToVariant {
 #endif
 };
 
-/// What the user reads when `run` throws; empty when it does not.
+/// Why `run` throws; empty when it does not.
 template <class Run>
-std::string failureOf(const Run& run) {
+std::string reasonOf(const Run& run) {
   try {
     run();
     return {};
@@ -218,6 +220,13 @@ std::string failureOf(const Run& run) {
   } catch (...) {
     return "The optimisation failed for an unknown reason.";
   }
+}
+
+/// What the user reads when `run` throws; empty when it does not.
+template <class Run>
+std::string failureOf(const Run& run) {
+  const std::string reason = reasonOf(run);
+  return inMeshLabsWindow() ? reason : withPyMeshLabNames(reason);
 }
 
 } // namespace
@@ -331,6 +340,11 @@ ReturnedValues MassPropertiesFilter::optimize(MeshDocument& document,
     throw InvalidInput("There is no layer to work on: open a closed triangle mesh with File > "
                        "Import Mesh, then run again.");
   }
+  // It is the current layer after a run, and would be hollowed as a body.
+  if (input->label().endsWith(kCavityLayer)) {
+    throw InvalidInput("The current layer is a cavity that this filter has made: choose the "
+                       "model's layer (PyMeshLab: set_current_mesh), then run again.");
+  }
   const Placement placement = placementOf(*input);
   Options options = optionsFrom(parameters);
   options.representable = [&placement](const Points& world) {
@@ -347,7 +361,7 @@ ReturnedValues MassPropertiesFilter::optimize(MeshDocument& document,
     layers.add(result.picture->marks, result.picture->marksName);
   }
   const bool hasCavity = result.inner.faces.rows() > 0;
-  if (hasCavity) layers.add(result.inner, "inner offset surface", result.innerWall);
+  if (hasCavity) layers.add(result.inner, kCavityLayer, result.innerWall);
   layers.keep();
 
   ReturnedValues values;

@@ -1,4 +1,4 @@
-// The names in which MeshLab's plugin interfaces differ, one generation each. The build tells the
+// The names in which MeshLab's plugin interfaces differ, one generation each. The build says which
 // generation (cmake/MeshLab.cmake).
 #pragma once
 

@@ -600,6 +600,29 @@ TEST(Pipeline, MovesTheOuterSurfaceLessWhenItsDisplacementHasWeight) {
   EXPECT_LT(meanSquare(heavy), 0.5 * meanSquare(resultOf(c)));
 }
 
+TEST(Pipeline, GivesEveryVertexOfTheCavityItsOwnWall) {
+  const TriangleMesh model = box({1, 1.5, 2}, 6);
+  Options options;
+  options.goal = GoalKind::Mass;
+  options.targetMass = 0.0025;
+  const Result result = optimizeMassProperties(model, options);
+  ASSERT_GT(result.inner.vertices.rows(), 0);
+  const Eigen::RowVector3d lower = model.vertices.colwise().minCoeff();
+  const Eigen::RowVector3d upper = model.vertices.colwise().maxCoeff();
+  ASSERT_EQ(result.innerWall.size(), result.inner.vertices.rows());
+  const double tolerance = 1e-9 * diagonal(model); // the working frame rounds coordinates
+  for (Eigen::Index v = 0; v < result.innerWall.size(); ++v) {
+    const Eigen::RowVector3d p = result.inner.vertices.row(v);
+    const double toSides = std::min((p - lower).minCoeff(), (upper - p).minCoeff());
+    EXPECT_NEAR(result.innerWall[v], toSides, tolerance);
+  }
+  EXPECT_LE(number(result, "min_wall"), result.innerWall.minCoeff() + tolerance);
+}
+
+TEST(Pipeline, SaysThatThePrintMustBeDense) {
+  EXPECT_EQ(text(resultOf(caseNamed("pillar")), "print_as").rfind("dense: 100 % infill", 0), 0U);
+}
+
 TEST(Pipeline, MakesSmootherOffsetsWhenSmoothnessHasWeight) {
   // The mean spread of the wall over the edges of the cavity.
   const TriangleMesh model = leaningPillar();

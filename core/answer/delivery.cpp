@@ -1,11 +1,37 @@
 #include "core/answer/delivery.h"
 
+#include "core/answer/wall_at_vertices.h"
 #include "core/mesh/components.h"
 #include "core/mesh/signed_volume.h"
 
 #include <utility>
 
 namespace massprops {
+namespace {
+
+Vector wallOf(const CavityTask& task, const CavityResult& cavity) {
+  return task.model.outer ? wallAtVertices(cavity.inner, {cavity.outer, task.surface.faces(),
+                                                          TriangleTree::Order::Spatial})
+                          : wallAtVertices(cavity.inner, task.surface);
+}
+
+Faces facesWithoutLids(const Solid& solid) {
+  if (solid.isLid().empty()) return solid.faces();
+  Faces faces(solid.faces().rows(), 3);
+  Eigen::Index kept = 0;
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    if (solid.isLid()[static_cast<std::size_t>(f)] == 0) faces.row(kept++) = solid.faces().row(f);
+  }
+  return faces.topRows(kept);
+}
+
+/// Whether the input and the cavity bound the material together.
+bool inputServes(const Solid& solid, const CavityTask& task) {
+  const Repairs& repairs = solid.repairs();
+  return !task.model.outer && repairs.replacedCavities == 0 && repairs.flippedComponents == 0;
+}
+
+} // namespace
 
 Delivery deliver(const Solid& solid, const PosedModel& posed, const CavityTask& task,
                  const CavityResult& cavity, const std::vector<int>& vertexOf,
@@ -24,11 +50,12 @@ Delivery deliver(const Solid& solid, const PosedModel& posed, const CavityTask& 
   Submesh inner = submesh(positions, placed(faces, places));
   result.inner = std::move(inner.mesh);
   if (result.inner.faces.rows() > 0) flip(result.inner.faces);
-  result.innerWall = placed(cavity.inspection.wall, places)(inner.vertexOf) * posed.frame.length;
-  if (task.model.outer || posed.cavities.faces.rows() > 0) {
-    result.outer = TriangleMesh{
-        representable(toModel(posed.frame, placed(cavity.outer, posed.vertexOf))), solid.faces()};
-  }
+  result.innerWall = placed(wallOf(task, cavity), places)(inner.vertexOf) * posed.frame.length;
+  if (inputServes(solid, task)) return result;
+  const Points outer =
+      task.model.outer ? representable(toModel(posed.frame, placed(cavity.outer, posed.vertexOf)))
+                       : solid.vertices();
+  result.outer = submesh(outer, facesWithoutLids(solid)).mesh;
   return result;
 }
 

@@ -11,6 +11,11 @@
 namespace massprops {
 namespace {
 
+/// All is calculated for material of one density; sparse infill lets the walls have another one
+/// inside than at their skins.
+constexpr const char* kPrintAs = "dense: 100 % infill, or walls made of perimeters throughout; at "
+                                 "sparse infill the verdict does not hold";
+
 /// A body in the model's own coordinates and in grams.
 MassProperties inModel(const Moments& massMoments, const Frame& frame, double density) {
   const MassProperties working = massProperties(massMoments);
@@ -66,6 +71,17 @@ std::string message(const CavityTask& task, const Verdicts& verdicts, const Cavi
          (keepsConstraints ? "" : outlook(task, verdicts.before));
 }
 
+/// In words, and as numbers for hosts that take no text from a filter.
+void addRepairs(const Repairs& repairs, Report& report) {
+  report.add("repairs", repairs.describe());
+  report.add("merged_vertices", repairs.mergedVertices);
+  report.add("unused_vertices", repairs.unusedVertices);
+  report.add("zero_area_faces", repairs.zeroAreaFaces);
+  report.add("duplicate_faces", repairs.duplicateFaces);
+  report.add("flipped_components", repairs.flippedComponents);
+  report.add("replaced_cavities", repairs.replacedCavities);
+}
+
 /// Vertices of what moves inwards, lids apart, that have no cavity behind them.
 int solidVertices(const CavityTask& task, const CavityResult& cavity) {
   const Faces& skin = task.open != nullptr ? task.open->skin : task.model.surface->faces;
@@ -115,13 +131,14 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Ve
     verdicts.before.describe(task.bound->massMoments, "limit", report);
     if (task.bound->bestVerdict) verdicts.before.describe(*task.bound->bestVerdict, "best", report);
   }
+  report.add("print_as", std::string(kPrintAs));
   report.add("min_wall", hasCavity ? cavity.inspection.leastWall * posed.frame.length : 0.0);
   report.add("cavity_components", hollow ? cavity.inspection.components : 0);
   if (cavity.status == CavityStatus::NoRoom) {
     report.add("largest_wall", stages.largestWall * posed.frame.length);
     report.add("seconds_largest_wall", stages.secondsLargestWall);
   }
-  report.add("repairs", stages.repairs);
+  addRepairs(stages.repairs, report);
   report.add("skeleton_failures", stages.skeletonFailures);
   if (posed.open) report.add("openings", posed.open->openings);
   report.add("solid_vertices", solidVertices(task, cavity));

@@ -4,15 +4,14 @@
 #include "core/base/report.h"
 #include "core/goals/verdict.h"
 #include "core/model/posed_model.h"
+#include "core/model/repair.h"
 #include "core/reduced/cavity_search.h"
-
-#include <string>
 
 namespace massprops {
 
 /// What happened before and beside the search.
 struct Stages {
-  std::string repairs;       ///< of the input, in words
+  Repairs repairs;           ///< of the input
   int skeletonFailures = 0;  ///< components on which the mean curvature flow failed
   double largestWall = 0.0;  ///< working length; of use when there is no room for a cavity
   double secondsCheck = 0.0; ///< of the input, and making it ready

@@ -20,7 +20,7 @@ void requireLid(bool isClosed) {
   if (isClosed) return;
   throw InvalidInput(
       "An opening of the surface cannot be closed by a lid, which open_surface needs "
-      "for its own calculation: straighten its border with Smoothing > Laplacian "
+      "for its own calculations: straighten its border with Smoothing > Laplacian "
       "Smooth on the selected border, then run again.");
 }
 

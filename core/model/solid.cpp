@@ -116,14 +116,14 @@ void requireNoSelfIntersection(const Points& vertices, const Faces& faces,
   if (crossing > 0 && crossingFaces.back() >= skinFaces) {
     throw InvalidInput(
         "A lid that closes an opening of the surface, which open_surface needs for "
-        "its own calculation, crosses the surface: close the opening with Remeshing > "
+        "its own calculations, crosses the surface: close the opening with Remeshing > "
         "Close Holes, or cut the model where its openings are flat, then run again.");
   }
   if (crossing > 0) {
     throw InvalidInput("The surface crosses itself: " + count(crossing, "face", "faces") +
                        " intersect others. Use Selection > Select Self Intersecting Faces, delete "
                        "them and use Remeshing > Close Holes, then run again; parts that overlap "
-                       "are joined by Mesh Boolean: Union.");
+                       "are joined by Mesh Boolean: Union (CSG Operation in MeshLab 2020.09).");
   }
 }
 

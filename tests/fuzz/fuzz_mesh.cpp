@@ -263,7 +263,7 @@ void check(const TriangleMesh& input, const Options& options, const Solid& solid
   require(intersectingPairs(outer) == 0, "the outer surface does not cross itself");
   require(intersectingPairs(result.inner, outer) == 0, "the cavity stays off the outer surface");
   const double wall = *options.innerLowerBound;
-  require(separation(result.inner, outer, wall).least >= wall, "the wall is kept");
+  require(separation(result.inner, outer).least >= wall, "the wall is kept");
   require(std::abs(windingNumber(outer, result.inner.vertices.row(0).transpose()) - 1.0) < 1e-6,
           "the cavity lies inside");
 }

@@ -5,7 +5,7 @@ import numpy as np
 
 import measure
 from host import (SAMPLES, HostTest, bounds_a_volume, changed_script, colours_of, layers_of, meshlabserver,
-                  read_ply, report_in, script_of, shutil, write_ply, write_project)
+                  ply_elements, read_ply, report_in, script_of, shutil, write_ply, write_project)
 
 TOP = SAMPLES / "tilted_ellipsoid_top.ply"
 SPIN = script_of("tilted_ellipsoid_top")
@@ -79,6 +79,18 @@ class LayersTest(HostTest):
         for corner in hull:
             self.assertLess(np.linalg.norm(blue[:, :2] - corner, axis=1).min(), 0.004 * size)
 
+    def test_the_vertex_quality_is_the_wall_at_each_vertex(self):
+        inner = self.folder / "inner.ply"
+        status, log = meshlabserver("-i", TOP, "-o", inner, "-m", "vq", "-s", SPIN)
+        self.assertEqual(status, 0, log)
+        quality = ply_elements(inner)["vertex"]["quality"]
+        points, (vertices, faces) = read_ply(inner)[0], read_ply(TOP)
+        a, b, c = vertices[faces].transpose(1, 0, 2)
+        for point, wall in list(zip(points, quality))[::7]:
+            p = np.broadcast_to(point, a.shape)
+            nearest = measure.point_triangle_distances(p, a, b, c).min()
+            self.assertAlmostEqual(wall / nearest, 1.0, delta=1e-5)
+
     def test_the_input_layer_is_saved_as_if_the_filter_had_not_run(self):
         (before, *_), _ = self.project(self.mesh())
         untouched = (self.folder / before[0]).read_bytes()
@@ -94,6 +106,14 @@ class LayersTest(HostTest):
             self.assertEqual(status, 0, log)
             surfaces.append(inner.read_bytes())
         self.assertEqual(*surfaces)
+
+    def test_a_cavity_is_not_taken_for_a_model(self):
+        """After a run it is the current layer, so that a second one would hollow it."""
+        saved = self.folder / "saved.mlp"
+        status, log = meshlabserver("-i", self.mesh(), "-w", saved, "-s", SPIN, "-s", SPIN)
+        self.assertNotEqual(status, 0, log)
+        self.assertIn("The current layer is a cavity", log)
+        self.assertFalse(saved.exists())
 
     def test_stages_are_announced(self):
         status, log = meshlabserver("-i", TOP, "-s", SPIN)

@@ -6,7 +6,7 @@ import unittest
 
 import numpy as np
 
-from host import HostTest, changed_script, cube, meshlabserver, script_of, write_ply
+from host import ROOT, HostTest, changed_script, cube, meshlabserver, script_of, write_ply
 
 SPIN = script_of("tilted_ellipsoid_top")
 
@@ -33,6 +33,9 @@ class RefusalsTest(HostTest):
             self.assertIn(name, said)
             # Versions differ in what they append to a name.
             self.assertTrue(any(f.startswith(name) for f in self.filters()), f"no filter {name}")
+        self.assertEqual(bool(filters), " In PyMeshLab: " in said)
+        for name in re.findall(r"[a-z_]+", said.partition(" In PyMeshLab: ")[2]):
+            self.assertRegex(name, "^(meshing|compute|generate|apply|set)_", "a PyMeshLab filter")
         self.assertNotRegex(log, r"(?m)^[a-z_]+ = ", "no report")
         self.assertFalse(inner.exists())
         self.assertFalse(saved.exists())
@@ -47,6 +50,28 @@ class RefusalsTest(HostTest):
                 text = dump.read_text(errors="replace")
             cls._filters = set(re.findall(r"(?m)^\\section f\d+ (.*?) *$", text))
         return cls._filters
+
+    def test_all_filters_that_sentences_name_have_a_name_in_python(self):
+        """In the sources, for not every sentence can be provoked."""
+        table = (ROOT / "filter_massprops" / "pymeshlab_names.cpp").read_text()
+        known = dict(re.findall(r'\{"([^"]+)",\s*"([a-z_]+)"\}', table))
+        self.assertGreater(len(known), 10)
+        for menu in known:
+            with self.subTest(menu):
+                self.assertTrue(menu == "Mesh Boolean: Union"  # since 2021
+                                or any(menu in f for f in self.filters()), "not in this MeshLab")
+        named = 0
+        for file in [*(ROOT / "core").rglob("*.cpp"), *(ROOT / "filter_massprops").glob("*.cpp")]:
+            text = re.sub(r'"\s*"', "", file.read_text())
+            for menu, rest in re.findall(
+                    r"(Remeshing|Reconstruction|Repairing|Selection|Normals|Orientation|Smoothing|"
+                    r"Mesh Layer) > ([^\"]{8,60})", text):
+                if file.name == "pymeshlab_names.cpp":
+                    continue
+                named += 1
+                with self.subTest(file=file.name, menu=menu, rest=rest):
+                    self.assertTrue(any(rest.startswith(name) for name in known))
+        self.assertGreater(named, 10)
 
     def test_no_layer(self):
         self.refuse(None, "no layer.*Import Mesh")
@@ -101,7 +126,7 @@ class RefusalsTest(HostTest):
         self.refuse((points, faces), "cross", ["Select Self Intersecting Faces"])
 
     def test_more_basis_functions_than_vertices(self):
-        self.refuse(cube(), "basis_k is 99.*vertices", basis_k=99)
+        self.refuse(cube(), "basis_k is 99.*vertices", ["Subdivision Surfaces: Midpoint"], basis_k=99)
 
     def test_no_basis_function(self):
         self.refuse(cube(), "basis_k is 0", basis_k=0)

@@ -588,24 +588,19 @@ void checkSurface(const PropertyCase& c, const Result& result, const TriangleMes
     }
   }
 
-  const Separation apart = separation(inner, outer, c.wall);
+  const Separation apart = separation(inner, outer);
   found.require(apart.least >= c.wall, "the wall is ", apart.least, ", asked for ", c.wall, " (",
                 apart.least / c.wall, " of it)");
   const double tolerance = 1e-9 * Upright(c.body, c.options.upAxis).length;
   found.near("min_wall", number(result, "min_wall"), apart.least, tolerance);
   found.require(result.innerWall.size() == inner.vertices.rows(), "a vertex has no wall");
-  // The wall at a vertex is that of the triangles around it, or a neighbour's when that is less.
-  Vector least = apart.atVertex;
-  for (Eigen::Index f = 0; f < inner.faces.rows(); ++f)
-    for (const int v : inner.faces.row(f))
-      for (const int w : inner.faces.row(f)) least[v] = std::min(least[v], apart.atVertex[w]);
-  for (Eigen::Index v = 0; v < std::min(result.innerWall.size(), inner.vertices.rows()); ++v) {
+  if (result.innerWall.size() != inner.vertices.rows()) return;
+  for (Eigen::Index v = 0; v < inner.vertices.rows(); ++v) {
     const double got = result.innerWall[v];
-    const bool fits = got <= apart.atVertex[v] + tolerance && got >= least[v] - tolerance;
-    const bool bothFar = got >= c.wall - tolerance && apart.atVertex[v] >= c.wall - tolerance;
-    found.require(fits || bothFar, "the wall at vertex ", v, " is told as ", got, ", measured ",
+    const bool fits = std::abs(got - apart.atVertex[v]) <= tolerance;
+    found.require(fits, "the wall at vertex ", v, " is reported as ", got, ", measured ",
                   apart.atVertex[v]);
-    if (!fits && !bothFar) break;
+    if (!fits) break;
   }
 }
 
@@ -616,8 +611,10 @@ void checkOuter(const PropertyCase& c, const Result& result, Findings& found) {
   const std::string message = std::get<std::string>(result.report.at("message"));
   const bool alone = message.find("outer surface alone") != std::string::npos;
   found.require(!alone || (moves && !hollow && !hadCavities),
-                "the outer surface is told to move alone without a reason");
-  found.require(result.outer.has_value() == (alone || (hollow && (moves || hadCavities))),
+                "the outer surface is said to move alone without a reason");
+  const bool flipped = std::get<int>(result.report.at("flipped_components")) > 0;
+  found.require(result.outer.has_value() ==
+                    (alone || (hollow && (moves || hadCavities || flipped))),
                 result.outer ? "there is an outer surface without a reason"
                              : "the new outer surface is missing");
   if (!result.outer) return;
@@ -644,19 +641,14 @@ void checkOuter(const PropertyCase& c, const Result& result, Findings& found) {
 
 } // namespace
 
-Separation separation(const TriangleMesh& a, const TriangleMesh& b, double horizon) {
-  const std::vector<Triangle> ofA = trianglesOf(a);
+Separation separation(const TriangleMesh& a, const TriangleMesh& b) {
   const std::vector<Triangle> ofB = trianglesOf(b);
   const BoxTree tree(ofB);
-  Separation result{kInfinity, Vector::Constant(a.vertices.rows(), kInfinity)};
-  for (std::size_t f = 0; f < ofA.size(); ++f) {
-    const double d = tree.distance(ofA[f], std::max(horizon * 1.5, result.least));
-    if (d >= std::max(horizon * 1.5, result.least) && std::isfinite(result.least)) continue;
-    result.least = std::min(result.least, d);
-    for (int k = 0; k < 3; ++k) {
-      double& at = result.atVertex[a.faces(static_cast<Eigen::Index>(f), k)];
-      at = std::min(at, d);
-    }
+  Separation result{kInfinity, Vector(a.vertices.rows())};
+  for (const Triangle& t : trianglesOf(a)) result.least = tree.distance(t, result.least);
+  for (Eigen::Index v = 0; v < a.vertices.rows(); ++v) {
+    const Vec3 p = a.vertices.row(v).transpose();
+    result.atVertex[v] = tree.distance({p, p, p}, kInfinity);
   }
   return result;
 }
@@ -681,12 +673,12 @@ std::vector<std::string> brokenPromises(const PropertyCase& c, const Result& res
   found.require(hollow || result.inner.vertices.rows() == 0, "an empty cavity has vertices");
   found.require(hollow || message.find("nothing can be hollowed") != std::string::npos ||
                     message.find("no cavity") != std::string::npos,
-                "the message does not tell that there is no cavity: ", message);
+                "the message does not say that there is no cavity: ", message);
   found.require(hollow == !(std::get<int>(result.report.at("cavity_components")) == 0),
                 "cavity_components does not fit the cavity");
   found.require(has(result, "largest_wall") ==
                     (message.find("nothing can be hollowed") != std::string::npos),
-                "largest_wall is told without a reason, or missing");
+                "largest_wall is reported without a reason, or missing");
   checkOuter(c, result, found);
   const TriangleMesh& outer = result.outer ? *result.outer : c.body;
   if (hollow) checkSurface(c, result, outer, found);

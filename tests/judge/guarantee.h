@@ -12,13 +12,12 @@ namespace massprops::testing {
 /// What is not as promised, one sentence each; empty when all is.
 std::vector<std::string> brokenPromises(const PropertyCase& c, const Result& result);
 
-/// Least distance between two surfaces that do not cross, and for every vertex of `a` the least
-/// over the triangles around it as far as it is below `horizon`.
+/// Least distance between two surfaces that do not cross, and that of every vertex of `a` from `b`.
 struct Separation {
   double least;
   Vector atVertex;
 };
-Separation separation(const TriangleMesh& a, const TriangleMesh& b, double horizon);
+Separation separation(const TriangleMesh& a, const TriangleMesh& b);
 
 /// Whether a component encloses almost nothing.
 bool hasFlatComponent(const TriangleMesh& mesh);

@@ -119,6 +119,15 @@ TEST(MendedInput, MayFaceInwards) {
   const Result result = optimizeMassProperties(reversed(leaningPillar()), {});
   EXPECT_EQ(repairs(result), "1 component flipped");
   expectGoodCavity(result, leaningPillar());
+  // The input and the cavity together would bound something else.
+  EXPECT_EQ(std::get<int>(result.report.at("flipped_components")), 1);
+  ASSERT_TRUE(result.outer.has_value());
+  EXPECT_EQ(result.outer->vertices, leaningPillar().vertices);
+  EXPECT_TRUE(isClosedAndOriented(*result.outer));
+  const double material = quadratureMoments(*result.outer)[0] + quadratureMoments(result.inner)[0];
+  // The working frame rounds coordinates.
+  EXPECT_NEAR(number(result, "volume_after"), material, 1e-8 * material);
+  EXPECT_FALSE(resultOfPillar().outer.has_value());
 }
 
 TEST(MendedInput, MayBeVerySmallOrVeryLarge) {
