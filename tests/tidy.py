@@ -18,14 +18,14 @@ DECLARED = re.compile(r"(?!using namespace|namespace [\w: ]*\{)[a-zA-Z].*?([\w:~
 
 
 def compiler_flags(build, source):
-    """What `source` is compiled with, without precompiled headers and names of files."""
+    """What `source` means by: no names of files, no precompiled headers, warnings, optimisation."""
     commands = json.loads((build / "compile_commands.json").read_text())
     entry = next(e for e in commands if e["file"] == str(source))
     flags, words = [], iter(shlex.split(entry["command"])[1:])
     for word in words:
         if word in ("-o", "-c", "-include"):
             next(words)
-        elif word.startswith("-") and word != "-Winvalid-pch":
+        elif word.startswith("-") and not word.startswith(("-W", "-O")):
             flags.append(word)
             if word == "-isystem":
                 flags.append(next(words))
