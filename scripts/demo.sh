@@ -20,6 +20,21 @@ if [ $# -eq 0 ]; then
   done
 fi
 
+python=/usr/bin/python3
+
+# Solid and picture of the sample whose names are set below.
+draw() {
+  if [ -f "$inner" ]; then
+    scripts/meshlabserver.sh -i "${moved:-$mesh}" "$inner" -o "$solid" -l x -s scripts/flatten.mlx \
+      >>"$log" 2>&1 || { cat "$log" >&2; return 1; }
+  else
+    scripts/meshlabserver.sh -i "$mesh" -o "$solid" >>"$log" 2>&1 || { cat "$log" >&2; return 1; }
+  fi
+  xvfb-run -a $python scripts/render.py --outer "$mesh" --inner "$inner" --moved-outer "$moved" --report "$report" \
+    --output "out/$name.png" >>"$log" 2>&1 || { cat "$log" >&2; return 1; }
+}
+
+drawing=
 for name in "$@"; do
   mesh=sample_meshes/$name.ply
   inner=out/${name}_inner.ply
@@ -55,18 +70,14 @@ for name in "$@"; do
     # Without a cavity the last layer is the model itself.
     rm -f "$inner"
   fi
-  python=/usr/bin/python3
   $python scripts/report_table.py "$report" "$name"
 
-  if [ -f "$inner" ]; then
-    scripts/meshlabserver.sh -i "${moved:-$mesh}" "$inner" -o "$solid" -l x -s scripts/flatten.mlx \
-      >>"$log" 2>&1 || { cat "$log" >&2; exit 1; }
-  else
-    scripts/meshlabserver.sh -i "$mesh" -o "$solid" >>"$log" 2>&1
-  fi
-  xvfb-run -a $python scripts/render.py --outer "$mesh" --inner "$inner" --moved-outer "$moved" --report "$report" \
-    --output "out/$name.png" >>"$log" 2>&1 || { cat "$log" >&2; exit 1; }
+  # One model is drawn while the next one is hollowed.
+  [ -z "$drawing" ] || wait "$drawing"
+  draw &
+  drawing=$!
 done
+wait "$drawing"
 
 echo
 echo "Written:"

@@ -3,14 +3,14 @@
 # missing, gets the headers of the installed MeshLab, configures and builds build/release. What is
 # done already is skipped.
 #
-# usage: scripts/setup.sh [--sanitized] [target ...]
-#   all targets when none is named; --sanitized: what the sanitized tests and the fuzzing need, too
+# usage: scripts/setup.sh [--thorough] [target ...]
+#   all targets when none is named; --thorough: what the thorough tests need, too
 set -eu
 cd "$(dirname "$0")/.."
 
-sanitized=OFF
-if [ "${1:-}" = --sanitized ]; then
-  sanitized=ON
+thorough=OFF
+if [ "${1:-}" = --thorough ]; then
+  thorough=ON
   shift
 fi
 
@@ -19,11 +19,11 @@ packages="
   g++ cmake ninja-build
   libcgal-dev libeigen3-dev libspectra-dev libnlopt-dev libnlopt-cxx-dev
   qtbase5-dev libqt5opengl5-dev libglew-dev libgl-dev
-  libgtest-dev libbenchmark-dev clang-format-14 clang-tidy-14
+  libgtest-dev libbenchmark-dev clang-format-14
   xvfb xauth libgl1-mesa-dri xdotool dbus-daemon dbus-bin at-spi2-core python3-pyatspi
   python3 python3-numpy python3-vtk9
 "
-[ "$sanitized" = OFF ] || packages="$packages clang-14 libclang-rt-14-dev"
+[ "$thorough" = OFF ] || packages="$packages clang-14 libclang-rt-14-dev clang-tidy-14"
 
 as_root() {
   if [ "$(id -u)" -eq 0 ]; then
@@ -50,7 +50,7 @@ fi
 
 scripts/fetch_meshlab_source.sh build/meshlab-source >/dev/null
 
-cmake --preset release -DMASSPROPS_WERROR=ON -DMASSPROPS_TEST_SANITIZED="$sanitized" \
+cmake --preset release -DMASSPROPS_WERROR=ON -DMASSPROPS_TEST_THOROUGHLY="$thorough" \
   >build/configure.log 2>&1 || {
   cat build/configure.log >&2
   exit 1

@@ -36,8 +36,8 @@ Vec2 widestDirection(const Points& vertices) {
 }
 
 /// Empty where the cut fails.
-std::optional<Picture> drawn(const PosedModel& posed, const CavityTask& task, const Verdict& verdict,
-                             const CavityResult& cavity) {
+std::optional<Picture> drawn(const PosedModel& posed, const CavityTask& task,
+                             const Verdict& verdict, const CavityResult& cavity) {
   const Moments massAfter =
       shellMoments(outerMoments(task, cavity), moments(cavity.inner, cavity.cavity.faces), 1.0,
                    task.model.fillDensity);

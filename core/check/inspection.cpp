@@ -63,7 +63,8 @@ Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleT
   };
   const auto takeWall = [&] {
     ClearanceQuery fresh(outer);
-    Clearance found = (clearance != nullptr ? *clearance : fresh).measure(inner, innerFaces, safely(wall));
+    Clearance found =
+        (clearance != nullptr ? *clearance : fresh).measure(inner, innerFaces, safely(wall));
     add(verticesOf(innerFaces, {&found.crossing}), inspection.crossing);
     inspection.wall = std::move(found.distance);
     inspection.leastWall = found.least;
@@ -119,7 +120,8 @@ Inspection inspectShell(const Points& positions, const Faces& cavity, const Tria
   for (int& v : bad) v = v < n ? v : v - static_cast<int>(n);
   add(bad, inspection.crossing);
 
-  Clearance clearance = ClearanceQuery(skin).measure(positions, withoutStrips(cavity, n), safely(wall));
+  Clearance clearance =
+      ClearanceQuery(skin).measure(positions, withoutStrips(cavity, n), safely(wall));
   inspection.wall = std::move(clearance.distance);
   inspection.wall.tail(n).setZero();
   inspection.leastWall = clearance.least;

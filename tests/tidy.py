@@ -1,0 +1,106 @@
+"""usage: tidy.py <clang-tidy> <build folder> <source> ...   clang-tidy, several sources at once
+
+Most of clang-tidy's time goes into headers of Eigen and CGAL, again for every source. Sources whose
+names at the outermost level differ are therefore joined into one; what is found there is reported
+where it stands. Sources that do not compile together are looked at one by one.
+"""
+import json
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+# With clang-format's layout, what a namespace declares begins in the first column.
+DECLARED = re.compile(r"(?!using namespace|namespace [\w: ]*\{)[a-zA-Z].*?([\w:~]+)(?=\(| = |;| \{| : |\[)")
+
+
+def compiler_flags(build, source):
+    """What `source` means by: no names of files, no precompiled headers, warnings, optimisation."""
+    commands = json.loads((build / "compile_commands.json").read_text())
+    entry = next(e for e in commands if e["file"] == str(source))
+    flags, words = [], iter(shlex.split(entry["command"])[1:])
+    for word in words:
+        if word in ("-o", "-c", "-include"):
+            next(words)
+        elif word.startswith("-") and not word.startswith(("-W", "-O")):
+            flags.append(word)
+            if word == "-isystem":
+                flags.append(next(words))
+    return flags
+
+
+def declarations_in(text):
+    """Name and line of what may have another meaning in another source; not members."""
+    found = filter(None, map(DECLARED.match, text.splitlines()))
+    return {match.group(1): match.string for match in found if "::" not in match.group(1)}
+
+
+def agree(some, others):
+    """The same alias may be declared again, nothing else."""
+    return all(some[name] == others[name] and re.match("using|namespace", some[name])
+               for name in some.keys() & others.keys())
+
+
+def units(build, sources):
+    """Lists of sources with the same flags that can be one."""
+    result = []
+    for source in sources:
+        text = source.read_text()
+        flags = compiler_flags(build, source)
+        declared = declarations_in(text)
+        # Macros change what the headers below them mean.
+        is_alone = re.search(r"^# *define", text, re.MULTILINE) is not None
+        for unit in result:
+            if not is_alone and unit["flags"] == flags and agree(declared, unit["declared"]):
+                unit["sources"].append(source)
+                unit["declared"].update(declared)
+                break
+        else:
+            result.append({"sources": [source], "declared": declared,
+                           "flags": None if is_alone else flags})
+    return result
+
+
+def run(tidy, flags, sources):
+    """Whether clang-tidy is content, and what it says with the places in `sources`."""
+    with tempfile.TemporaryDirectory(dir=ROOT / "build") as folder:
+        joined = pathlib.Path(folder) / "joined.cpp"
+        places, text = [], []
+        for source in sources:
+            lines = source.read_text().splitlines()
+            text += lines
+            places += [(source, number) for number in range(1, len(lines) + 1)]
+        joined.write_text("\n".join(text) + "\n")
+        done = subprocess.run([tidy, "--quiet", f"--config-file={ROOT / '.clang-tidy'}", str(joined),
+                               "--", *flags], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              text=True, cwd=ROOT, check=False)
+
+    def place(match):
+        source, number = places[min(int(match.group(1)), len(places)) - 1]
+        return f"{source}:{number}:"
+    said = re.sub(re.escape(str(joined)) + r":(\d+):", place, done.stdout)
+    return done.returncode == 0, said or ("" if done.returncode == 0 else done.stderr)
+
+
+def main(tidy, build, *sources):
+    build = pathlib.Path(build)
+    good = True
+    for unit in units(build, [pathlib.Path(source) for source in sources]):
+        together = unit["sources"]
+        flags = unit["flags"] or compiler_flags(build, together[0])
+        print("Together:", *(source.relative_to(ROOT) for source in together))
+        content, said = run(tidy, flags, together)
+        if "clang-diagnostic-error" in said and len(together) > 1:
+            clash = next(line for line in said.splitlines() if "clang-diagnostic-error" in line)
+            print("They do not compile together:", clash)
+            alone = [run(tidy, flags, [source]) for source in together]
+            content, said = all(c for c, _ in alone), "".join(s for _, s in alone)
+        good = good and content
+        print(said, end="", flush=True)
+    return 0 if good else 1
+
+
+sys.exit(main(*sys.argv[1:]))
