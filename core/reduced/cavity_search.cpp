@@ -250,7 +250,7 @@ private:
   void followOuterSurface(int round);
   Next findOffsets(int round);
   bool closeCavity();
-  bool optimize(int round);
+  void optimize(int round);
   MinimizeResult minimizeFrom(const Vector& start, int round) const;
   bool fillNarrow(int round);
   void placeAndInspect();
@@ -273,12 +273,6 @@ private:
   std::unique_ptr<Goal> movedGoal_;
   const Goal* goal_;
 
-  /// The minimum before unwanted parts were filled, to come back to where the goal needs them.
-  struct Attempt {
-    MinimizeResult best;
-    std::vector<char> solid;
-  };
-  std::optional<Attempt> withUnwanted_;
   bool fillUnwanted_;
   bool mayTrim_ = true;
   LookFirst first_ = LookFirst::ForAll;
@@ -355,10 +349,9 @@ CavitySearch::Next CavitySearch::findOffsets(int round) {
     result_.stopReason = "no room for a cavity at an opening";
     return Next::GiveUp;
   }
-  if (!optimize(round)) return Next::AnotherRound;
+  optimize(round);
   surfaces_ = offsetSurfaces(model_, coefficients_);
   if (fillNarrow(round)) return Next::AnotherRound;
-  withUnwanted_.reset();
   fillUnwanted_ = false;
   return Next::Inspect;
 }
@@ -376,11 +369,10 @@ bool CavitySearch::closeCavity() {
   return !closesOpening(task_, solid_);
 }
 
-/// False where the goal turns out to need the parts that the round before filled.
-bool CavitySearch::optimize(int round) {
+void CavitySearch::optimize(int round) {
   if (freedom_ == 0.0) {
     result_.stopReason = "least offsets";
-    return true;
+    return;
   }
   MinimizeResult best = minimizeFrom(coefficients_, round);
   if (round == 0 && isFarFromBound(task_, best)) {
@@ -392,15 +384,6 @@ bool CavitySearch::optimize(int round) {
   coefficients_ = best.x;
   result_.effort.evaluations += best.evaluations;
   result_.stopReason = best.stopReason;
-  if (withUnwanted_ && isBetter(withUnwanted_->best, best)) {
-    solid_ = std::move(withUnwanted_->solid);
-    coefficients_ = withUnwanted_->best.x;
-    withUnwanted_.reset();
-    fillUnwanted_ = false;
-    return false;
-  }
-  if (fillUnwanted_) withUnwanted_ = Attempt{std::move(best), solid_};
-  return true;
 }
 
 MinimizeResult CavitySearch::minimizeFrom(const Vector& start, int round) const {

@@ -47,17 +47,8 @@ MinimizeResult minimizeCoarseToFine(const OffsetModel& model, const Goal& goal,
   coarse.innerFaces = clustered(model.innerFaces, carrier.vertexFor);
   coarse.fillDensity = model.fillDensity;
   coarse.solidMoments = model.solidMoments;
-  // Of value alone: with the derivatives' difference, too, the solver would run far beyond where
-  // that holds, for offsets end at their bounds.
-  const bool usesInertia = goal.usesInertia();
-  const Moments shift = cavityMoments(model, start, usesInertia).value -
-                        cavityMoments(coarse, start, usesInertia).value;
-  const auto shifted = [&](const Vector& x) {
-    CavityMoments cavity = cavityMoments(coarse, x, usesInertia);
-    cavity.value += shift;
-    return evaluateCavity(model, goal, weights, cavity);
-  };
-  const MinimizeResult rough = minimize(shifted, start, options);
+  const auto standIn = [&](const Vector& x) { return evaluate(coarse, goal, weights, x); };
+  const MinimizeResult rough = minimize(standIn, start, options);
   MinimizeOptions remaining = options;
   remaining.objectiveScale = rough.objectiveScale;
   const auto exact = [&](const Vector& x) { return evaluate(model, goal, weights, x); };

@@ -21,9 +21,9 @@ struct MovingSurface {
   Points vertices;
   Faces faces;
   /// Lumped, n entries of total 1.
-  Vector mass;
+  Vector mass = {};
   /// On the carrier's p vertices; on these where the interpolation is the identity.
-  HarmonicBasis basis;
+  HarmonicBasis basis = {};
   /// From the carrier's vertices to these, n×p.
   Interpolation interpolation = Interpolation::identity(0);
   /// The coarser copy that carries the smooth functions.

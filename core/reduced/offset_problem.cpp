@@ -65,6 +65,13 @@ Points displaced(const OffsetModel& model, const Vector& offsets, double sign) {
   return result;
 }
 
+/// The cavity's moments and their derivatives by α.
+struct CavityMoments {
+  Moments value;
+  MomentJacobian jacobian;
+};
+
+/// `usesInertia`: if not, the second moments and their derivatives are 0.
 CavityMoments momentsOf(const OffsetModel& model, const OffsetSurfaces& surfaces,
                         bool usesInertia) {
   if (model.isOpen) {
@@ -78,6 +85,16 @@ CavityMoments momentsOf(const OffsetModel& model, const OffsetSurfaces& surfaces
   MomentsWithRates inner =
       momentsWithRates(surfaces.inner, model.innerFaces, model.field.directions, usesInertia);
   return {inner.moments, jacobian(model, std::move(inner.rates), surfaces.innerSlopes, -1.0)};
+}
+
+/// Terms 1–3 and 5 and the constraints, while the outer surface stays.
+Evaluation evaluateCavity(const OffsetModel& model, const Goal& goal, const Weights& weights,
+                          const CavityMoments& cavity) {
+  const double solidVolume = model.solidMoments[0];
+  return evaluateBody(
+      goal, weights, shellMoments(model.solidMoments, cavity.value, 1.0, model.fillDensity),
+      (model.fillDensity - 1.0) * cavity.jacobian, (solidVolume - cavity.value[0]) / solidVolume,
+      -cavity.jacobian.row(0).transpose() / solidVolume);
 }
 
 } // namespace
@@ -96,20 +113,6 @@ OffsetSurfaces offsetSurfaces(const OffsetModel& model, const Vector& coefficien
     surfaces.outer = displaced(model, surfaces.outerOffsets, 1.0);
   }
   return surfaces;
-}
-
-CavityMoments cavityMoments(const OffsetModel& model, const Vector& coefficients,
-                            bool usesInertia) {
-  return momentsOf(model, offsetSurfaces(model, coefficients), usesInertia);
-}
-
-Evaluation evaluateCavity(const OffsetModel& model, const Goal& goal, const Weights& weights,
-                          const CavityMoments& cavity) {
-  const double solidVolume = model.solidMoments[0];
-  return evaluateBody(
-      goal, weights, shellMoments(model.solidMoments, cavity.value, 1.0, model.fillDensity),
-      (model.fillDensity - 1.0) * cavity.jacobian, (solidVolume - cavity.value[0]) / solidVolume,
-      -cavity.jacobian.row(0).transpose() / solidVolume);
 }
 
 Evaluation evaluate(const OffsetModel& model, const Goal& goal, const Weights& weights,

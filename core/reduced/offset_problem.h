@@ -34,18 +34,6 @@ struct OffsetSurfaces {
 /// `coefficients`: α (k), followed by β (k) when the outer surface moves.
 OffsetSurfaces offsetSurfaces(const OffsetModel& model, const Vector& coefficients);
 
-/// The cavity's moments and their derivatives by α.
-struct CavityMoments {
-  Moments value;
-  MomentJacobian jacobian;
-};
-/// `usesInertia`: if not, the second moments and their derivatives are 0.
-CavityMoments cavityMoments(const OffsetModel& model, const Vector& coefficients, bool usesInertia);
-
-/// Objective terms 1–3 and 5 and the goal's constraints, while the outer surface stays.
-Evaluation evaluateCavity(const OffsetModel& model, const Goal& goal, const Weights& weights,
-                          const CavityMoments& cavity);
-
 /// Objective terms 1–6 and the goal's constraints at `coefficients`; docs/math.md "Objective".
 Evaluation evaluate(const OffsetModel& model, const Goal& goal, const Weights& weights,
                     const Vector& coefficients);

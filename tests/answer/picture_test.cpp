@@ -1,7 +1,7 @@
 // What the answer looks like: marks, and bodies cut open.
 #include "core/answer/cutaway.h"
 #include "core/answer/picture.h"
-#include "core/goals/goals.h"
+#include "core/goals/mass.h"
 #include "core/mesh/annotations.h"
 #include "core/model/posed_model.h"
 #include "core/model/repair.h"
@@ -169,19 +169,17 @@ TEST(PictureOf, SaysWhyThereIsNone) {
   posed.vertices = whole.vertices;
   posed.faces = whole.faces;
   const TriangleTree surface(whole.vertices, whole.faces);
-  const OffsetField field;
-  const HarmonicBasis basis;
-  const SparseMatrix L;
-  const Vector mass;
-  const std::unique_ptr<Goal> goal = makeMassGoal(1.0, std::nullopt, Weights{}, 1.0);
-  CavityTask task{surface, whole.vertices, whole.faces, field, basis, L, mass, *goal};
-  task.solidMoments << 1, 0, 0, 0.5, 1, 1, 1, 0, 0, 0;
+  const std::unique_ptr<Goal> goal = makeMassGoal(1.0, std::nullopt, Weights{});
+  const std::unique_ptr<Verdict> verdict = makeMassVerdict(std::nullopt, 1.0);
+  CavityTask task{surface, *goal, {}};
+  task.model.surface = std::make_shared<MovingSurface>(MovingSurface{whole.vertices, whole.faces});
+  task.model.solidMoments << 1, 0, 0, 0.5, 1, 1, 1, 0, 0, 0;
   task.inputMoments << 1, 0.1, 0, 0.5, 1, 1, 1, 0, 0, 0;
   CavityResult cavity;
   cavity.status = CavityStatus::Found;
   cavity.inner = Points::Zero(whole.vertices.rows(), 3);
   cavity.outer = whole.vertices;
-  const PictureResult drawn = pictureOf(posed, task, *goal, cavity);
+  const PictureResult drawn = pictureOf(posed, task, *verdict, cavity);
   EXPECT_FALSE(drawn.picture);
   EXPECT_EQ(drawn.failure.rfind("could not be drawn: ", 0), 0U) << drawn.failure;
 }

@@ -5,6 +5,7 @@
 #include "core/goals/verdict.h"
 #include "core/model/contact.h"
 #include "shapes.h"
+#include "translated_moments.h"
 
 #include <gtest/gtest.h>
 

@@ -11,6 +11,7 @@
 #include "goals/goal_checks.h"
 #include "samples.h"
 #include "shapes.h"
+#include "translated_moments.h"
 
 #include <gtest/gtest.h>
 

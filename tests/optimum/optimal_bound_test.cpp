@@ -1,6 +1,7 @@
 // The best that any cavity could do, against closed forms and brute force.
 #include "core/optimum/optimal_bound.h"
 
+#include "core/goals/registry.h"
 #include "core/goals/spin.h"
 #include "core/goals/stand.h"
 #include "core/model/posed_model.h"

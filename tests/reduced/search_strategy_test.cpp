@@ -1,6 +1,7 @@
 // Which searches follow each other, and that none of their work is lost.
 #include "core/reduced/search_strategy.h"
 
+#include "core/goals/registry.h"
 #include "core/model/posed_model.h"
 #include "core/reduced/harmonics.h"
 #include "core/reduced/skeleton.h"
