@@ -92,19 +92,21 @@ CavityTask taskAlong(double wantedClearance, const Preparation& model, const Fou
 
 } // namespace
 
-Preparation::Preparation(const TriangleMesh& model, const Options& options)
+Preparation::Preparation(const TriangleMesh& model, const Options& options, Resolution resolution)
     : solid(makeSolid(model, options.openSurface, rotationToUp(options.upAxis))),
       posed(pose(solid, options)),
       surface(posed.vertices, posed.open ? posed.open->skin : posed.faces,
               TriangleTree::Order::Spatial),
       solidMoments(moments(posed.vertices, posed.faces)),
       goal(makeGoal(options, posed, posed.vertices)),
-      isDecimated(!options.fullResolution && !moves(options) && !posed.open),
+      isDecimated(resolution == Resolution::Coarse && !moves(options) && !posed.open),
+      isCarrierCoarse(resolution == Resolution::Coarse),
       schedule(scheduleFor(posed.vertices.rows(), options.basisSize, isDecimated)) {}
 
-Preparation prepare(const TriangleMesh& model, const Options& options, ProgressBar& bar) {
+Preparation prepare(const TriangleMesh& model, const Options& options, ProgressBar& bar,
+                    Resolution resolution) {
   bar.show(0, "Checking the model");
-  return {model, options};
+  return {model, options, resolution};
 }
 
 Foundation coarsen(const Preparation& model, const Options& options, ProgressBar& bar) {
@@ -125,7 +127,7 @@ Foundation coarsen(const Preparation& model, const Options& options, ProgressBar
   };
   const auto coarsenModel = [&] {
     bar.show(model.schedule.copy, "Coarse copies");
-    const CoarseningOptions wanted{options.basisSize, model.isDecimated, !options.fullResolution,
+    const CoarseningOptions wanted{options.basisSize, model.isDecimated, model.isCarrierCoarse,
                                    options.weights.smoothness > 0.0};
     result.coarse = coarsen(
         model.posed, wanted,

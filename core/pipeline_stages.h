@@ -41,10 +41,14 @@ private:
   int percent_ = 0;
 };
 
+/// What moves inwards, and what carries skeleton and basis: coarse copies, as far as the options
+/// allow; or the whole surface, slow, which the copies are measured against.
+enum class Resolution { Coarse, Full };
+
 /// The model, checked and put upright, and what follows from it alone. Neither copied nor moved,
 /// for its parts refer to each other.
 struct Preparation {
-  Preparation(const TriangleMesh& model, const Options& options);
+  Preparation(const TriangleMesh& model, const Options& options, Resolution resolution);
   Preparation(const Preparation&) = delete;
   Preparation& operator=(const Preparation&) = delete;
 
@@ -54,13 +58,15 @@ struct Preparation {
   const TriangleTree surface; ///< the outer surface, working frame
   const Moments solidMoments; ///< of the outer surface, working frame
   const std::unique_ptr<Goal> goal;
-  const bool isDecimated; ///< whether a copy moves inwards
+  const bool isDecimated;     ///< whether a copy moves inwards
+  const bool isCarrierCoarse; ///< whether a coarser one carries skeleton and basis
   const Schedule schedule;
   const double seconds = time.seconds(); ///< all of this took
 };
 
 /// \throw InvalidInput when the model is no solid or an option is absurd
-Preparation prepare(const TriangleMesh& model, const Options& options, ProgressBar& bar);
+Preparation prepare(const TriangleMesh& model, const Options& options, ProgressBar& bar,
+                    Resolution resolution = Resolution::Coarse);
 
 /// What moves inwards, and what the best of all cavities could do.
 struct Foundation {

@@ -62,9 +62,6 @@ struct Options {
   double waterLevel = 0.5;
   double waterDensity = 1.0; ///< Float: g/cm³
   double targetMass = 0.0;   ///< Mass: g; 0 is as light as possible
-  /// Skeleton, basis and cavity on the whole surface instead of on coarse copies: slow; what the
-  /// copies are measured against.
-  bool fullResolution = false;
   /// Whether a surface with boundary loops is taken as one side of a shell; otherwise it is
   /// refused.
   bool openSurface = false;

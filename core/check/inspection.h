@@ -27,7 +27,7 @@ struct Inspection {
   bool isClean() const { return crossing.empty() && outerCrossing.empty() && thin.empty(); }
 };
 
-/// What is looked for first; where it is found, that is told alone.
+/// What is looked for first; where it is found, that is reported alone.
 enum class LookFirst { ForAll, ForFolds, ForThinWalls };
 
 /// Exact predicates for crossings and containment, double precision for distances: surfaces that

@@ -1,9 +1,7 @@
 #include "core/reduced/cavity.h"
 
 #include "core/base/parallel.h"
-#include "core/mesh/cgal_mesh.h"
-
-#include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
+#include "core/mesh/hole_filling.h"
 
 #include <algorithm>
 #include <optional>
@@ -11,8 +9,6 @@
 
 namespace massprops {
 namespace {
-
-using Mesh = SurfaceMesh;
 
 /// Fewer connected faces than this, left over from a larger component, make no cavity worth
 /// printing.
@@ -162,34 +158,20 @@ std::vector<int> cap(const Points& vertices, const Faces& faces, const VertexCor
     return static_cast<int>(std::lower_bound(vertexOf.begin(), vertexOf.end(), v) -
                             vertexOf.begin());
   };
-  Points points(static_cast<Eigen::Index>(vertexOf.size()), 3);
+  TriangleMesh patch{Points(static_cast<Eigen::Index>(vertexOf.size()), 3),
+                     Faces(static_cast<Eigen::Index>(near.size()), 3)};
   for (std::size_t i = 0; i < vertexOf.size(); ++i) {
-    points.row(static_cast<Eigen::Index>(i)) = vertices.row(vertexOf[i]);
+    patch.vertices.row(static_cast<Eigen::Index>(i)) = vertices.row(vertexOf[i]);
   }
-  Faces patch(static_cast<Eigen::Index>(near.size()), 3);
   for (std::size_t i = 0; i < near.size(); ++i) {
-    patch.row(static_cast<Eigen::Index>(i)) = faces.row(near[i]).unaryExpr(local);
+    patch.faces.row(static_cast<Eigen::Index>(i)) = faces.row(near[i]).unaryExpr(local);
   }
-  auto mesh = surfaceMesh(points, patch);
-  if (mesh.number_of_faces() < near.size()) return {};
-  const auto vertex = [&](int v) {
-    return Mesh::Vertex_index(static_cast<Mesh::size_type>(local(v)));
-  };
-  const Mesh::Halfedge_index border = mesh.halfedge(vertex(loop[0]), vertex(loop[1]));
-  if (!mesh.is_valid(border) || !mesh.is_border(border)) return {};
-  std::vector<Mesh::Face_index> added;
-  // The least area takes time up to the cube of the border's length: a long border is first tried
-  // in a plane, a very long one only there and among the triangles of a Delaunay triangulation.
-  constexpr std::size_t kLong = 48;
-  constexpr std::size_t kVeryLong = 128;
-  CGAL::Polygon_mesh_processing::triangulate_hole(
-      mesh, border, std::back_inserter(added),
-      CGAL::parameters::use_2d_constrained_delaunay_triangulation(loop.size() > kLong)
-          .do_not_use_cubic_algorithm(loop.size() > kVeryLong));
+  std::vector<int> border;
+  for (const int v : loop) border.push_back(local(v));
+  const Faces added = holeFilling(patch, border);
   std::vector<int> triangles;
-  for (const Mesh::Face_index f : added) {
-    for (const int v : cornersOf(mesh, f)) triangles.push_back(vertexOf[at(v)]);
-  }
+  for (Eigen::Index i = 0; i < added.size(); ++i)
+    triangles.push_back(vertexOf[at(added.data()[i])]);
   return triangles;
 }
 

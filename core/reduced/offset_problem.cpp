@@ -170,7 +170,7 @@ double offsetObjective(const MovingSurface& surface, const Weights& weights,
 }
 
 Vector coefficientsFor(const OffsetModel& model, const Vector& inner, const Vector& outer) {
-  // HᵀMH = 1, so the M-orthogonal projection is HᵀM; on a proxy M is what it stands for.
+  // HᵀMH = 1, so the M-orthogonal projection is HᵀM; on a carrier M is what it stands for.
   const Eigen::Index k = model.surface->basis.functions.cols();
   Vector coefficients(model.outer ? 2 * k : k);
   const auto project = [&](const Vector& field) {
