@@ -60,14 +60,14 @@ void momentsWithGradients(benchmark::State& state) {
 
 void basis(benchmark::State& state) {
   const Animal& a = animal(100000);
-  const DecimatedMesh proxy =
+  const DecimatedMesh carrier =
       decimated(a.posed.vertices, a.posed.faces, {state.range(0), state.range(0), 0.0});
-  const SparseMatrix L = cotanLaplacian(proxy.mesh.vertices, proxy.mesh.faces);
-  const Vector area = vertexLumpedMass(proxy.mesh.vertices, proxy.mesh.faces);
+  const SparseMatrix L = cotanLaplacian(carrier.mesh.vertices, carrier.mesh.faces);
+  const Vector area = vertexLumpedMass(carrier.mesh.vertices, carrier.mesh.faces);
   constexpr int kBasisSize = 36;
   for ([[maybe_unused]] auto _ : state) {
     benchmark::DoNotOptimize(
-        harmonicBasis(proxy.mesh.vertices, proxy.mesh.faces, L, area / area.sum(), kBasisSize));
+        harmonicBasis(carrier.mesh.vertices, carrier.mesh.faces, L, area / area.sum(), kBasisSize));
   }
 }
 

@@ -166,12 +166,12 @@ std::vector<int> cap(const Points& vertices, const Faces& faces, const VertexCor
   for (std::size_t i = 0; i < near.size(); ++i) {
     patch.faces.row(static_cast<Eigen::Index>(i)) = faces.row(near[i]).unaryExpr(local);
   }
-  std::vector<int> border;
-  for (const int v : loop) border.push_back(local(v));
+  std::vector<int> border(loop.size());
+  std::transform(loop.begin(), loop.end(), border.begin(), local);
   const Faces added = holeFilling(patch, border);
-  std::vector<int> triangles;
-  for (Eigen::Index i = 0; i < added.size(); ++i)
-    triangles.push_back(vertexOf[at(added.data()[i])]);
+  std::vector<int> triangles(at(added.size()));
+  std::transform(added.data(), added.data() + added.size(), triangles.begin(),
+                 [&](int v) { return vertexOf[at(v)]; });
   return triangles;
 }
 

@@ -45,17 +45,17 @@ constexpr double kFarGap = 0.05;
 /// How far the cavity retreats from a cap that folds, in walls.
 constexpr double kRetreat = 0.25;
 
-const Points& verticesOf(const CavityTask& task) {
+const Points& movingVertices(const CavityTask& task) {
   return task.model.surface->vertices;
 }
 
-const Faces& facesOf(const CavityTask& task) {
+const Faces& movingFaces(const CavityTask& task) {
   return task.model.surface->faces;
 }
 
 /// That a cavity's faces refer to.
 Eigen::Index positionCount(const CavityTask& task) {
-  return (task.open != nullptr ? 2 : 1) * verticesOf(task).rows();
+  return (task.open != nullptr ? 2 : 1) * movingVertices(task).rows();
 }
 
 /// Marks the vertices that paths of this length reach from v.
@@ -63,7 +63,8 @@ void markWithin(const CavityTask& task, const VertexAdjacency& neighbours, int v
                 std::vector<char>& solid) {
   std::vector<int> stack{v};
   const auto isNear = [&](int w) {
-    return (verticesOf(task).row(w) - verticesOf(task).row(v)).squaredNorm() < length * length;
+    return (movingVertices(task).row(w) - movingVertices(task).row(v)).squaredNorm() <
+           length * length;
   };
   while (!stack.empty()) {
     const int u = stack.back();
@@ -125,8 +126,8 @@ void tighten(const CavityTask& task, const CavityResult& result, const VertexAdj
       bounds.upper[v] = std::min(bounds.upper[v], result.innerOffsets[v] - step);
     }
   }
-  bounds.lower = lipschitzAbove(verticesOf(task), neighbours, bounds.lower, kBoundSlope);
-  bounds.upper = lipschitzBelow(verticesOf(task), neighbours, bounds.upper, kBoundSlope);
+  bounds.lower = lipschitzAbove(movingVertices(task), neighbours, bounds.lower, kBoundSlope);
+  bounds.upper = lipschitzBelow(movingVertices(task), neighbours, bounds.upper, kBoundSlope);
 }
 
 /// Holds the outer surface back where it folds; without patience it stays where it was.
@@ -135,7 +136,7 @@ void calmOuter(const CavityTask& task, const CavityResult& result,
   for (const int v : result.inspection.outerCrossing) {
     bounds.upper[v] = std::min(bounds.upper[v], patient ? kShrink * result.outerOffsets[v] : 0.0);
   }
-  bounds.upper = lipschitzBelow(verticesOf(task), neighbours, bounds.upper, kBoundSlope);
+  bounds.upper = lipschitzBelow(movingVertices(task), neighbours, bounds.upper, kBoundSlope);
   bounds.lower = bounds.lower.cwiseMin(bounds.upper);
 }
 
@@ -186,8 +187,9 @@ bool mayMoveOuterAlone(const CavityTask& task) {
 
 /// Coefficients whose surface comes near to the bound's cavity.
 Vector towardsBound(const CavityTask& task, const OffsetModel& model, const Vector& outerStart) {
-  const Vector offsets = offsetsTowards(*task.bound, verticesOf(task), task.model.field.directions,
-                                        model.inner.lower, model.inner.upper);
+  const Vector offsets =
+      offsetsTowards(*task.bound, movingVertices(task), task.model.field.directions,
+                     model.inner.lower, model.inner.upper);
   return coefficientsFor(model, boundMapInverse(model.inner, offsets), outerStart);
 }
 
@@ -208,11 +210,11 @@ bool isBetter(const MinimizeResult& a, const MinimizeResult& b) {
 
 /// The positions that a cavity's faces refer to.
 Points cavityPositions(const CavityTask& task, const Points& inner) {
-  return task.open != nullptr ? stacked(inner, verticesOf(task)) : inner;
+  return task.open != nullptr ? stacked(inner, movingVertices(task)) : inner;
 }
 
 Faces offsetFaces(const CavityTask& task, const Faces& cavity) {
-  return task.open != nullptr ? withoutStrips(cavity, verticesOf(task).rows()) : cavity;
+  return task.open != nullptr ? withoutStrips(cavity, movingVertices(task).rows()) : cavity;
 }
 
 /// Whether an opening of the surface would be closed by material.
@@ -283,14 +285,14 @@ private:
 CavitySearch::CavitySearch(const CavityTask& task, double freedom,
                            const std::function<void(double)>& progress)
     : task_(task), freedom_(freedom), progress_(progress),
-      neighbours_(vertexAdjacency(verticesOf(task).rows(), facesOf(task))),
-      cavityFaces_(task.open != nullptr ? task.open->cavity : facesOf(task)),
+      neighbours_(vertexAdjacency(movingVertices(task).rows(), movingFaces(task))),
+      cavityFaces_(task.open != nullptr ? task.open->cavity : movingFaces(task)),
       corners_(vertexCorners(positionCount(task), cavityFaces_)), model_(task.model),
       bounds_(task.model.inner), solid_(tooThin(task.model.field, bounds_)),
       thinRounds_(solid_.size(), 0), goal_(&task.goal), fillUnwanted_(freedom > 0.0),
       clearance_(task.surface) {
   solid_.resize(static_cast<std::size_t>(positionCount(task)), 0);
-  bounds_.lower = lipschitzAbove(verticesOf(task), neighbours_,
+  bounds_.lower = lipschitzAbove(movingVertices(task), neighbours_,
                                  bounds_.lower.cwiseMin(bounds_.upper), kBoundSlope);
   if (model_.outer) {
     outerStart_ = model_.outer->lower + kOuterStart * (model_.outer->upper - model_.outer->lower);
@@ -433,7 +435,7 @@ bool CavitySearch::isAnswer(int round) {
 } // namespace
 
 Moments outerMoments(const CavityTask& task, const CavityResult& result) {
-  return task.model.outer ? moments(result.outer, facesOf(task)) : task.model.solidMoments;
+  return task.model.outer ? moments(result.outer, movingFaces(task)) : task.model.solidMoments;
 }
 
 SearchEffort& SearchEffort::operator+=(const SearchEffort& other) {

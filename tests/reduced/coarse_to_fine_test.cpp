@@ -16,11 +16,11 @@ namespace {
 
 constexpr int kBasis = 12;
 
-/// A lump of a few thousand vertices that stands on the ground z = 0, its basis on a proxy.
+/// A lump of a few thousand vertices that stands on the ground z = 0, its basis on a carrier.
 struct Lump {
   TriangleMesh mesh = transformed(blob(30), 0.4 * Mat3::Identity(), {0.05, -0.03, 0.42});
-  DecimatedMesh proxy = decimated(mesh.vertices, mesh.faces, {600, 600, 0.0});
-  Interpolation interpolation = interpolationFrom(proxy, mesh.vertices);
+  DecimatedMesh carrier = decimated(mesh.vertices, mesh.faces, {600, 600, 0.0});
+  Interpolation interpolation = interpolationFrom(carrier, mesh.vertices);
   Vector mass = vertexLumpedMass(mesh.vertices, mesh.faces);
   HarmonicBasis basis;
   Points directions = mesh.vertices;
@@ -28,8 +28,8 @@ struct Lump {
 
   Lump() {
     mass /= mass.sum();
-    basis = harmonicBasis(proxy.mesh.vertices, proxy.mesh.faces,
-                          cotanLaplacian(proxy.mesh.vertices, proxy.mesh.faces),
+    basis = harmonicBasis(carrier.mesh.vertices, carrier.mesh.faces,
+                          cotanLaplacian(carrier.mesh.vertices, carrier.mesh.faces),
                           interpolation.transposeTimes(mass), kBasis);
     directions.rowwise() -= Vec3(0.05, 0, 0.4).transpose();
     directions.rowwise().normalize();
@@ -40,7 +40,7 @@ struct Lump {
   OffsetModel model() const {
     OffsetModel result;
     result.surface = std::make_shared<MovingSurface>(
-        MovingSurface{mesh.vertices, mesh.faces, mass, basis, interpolation, proxy});
+        MovingSurface{mesh.vertices, mesh.faces, mass, basis, interpolation, carrier});
     result.field.directions = directions;
     result.inner = inner;
     result.innerFaces = mesh.faces;
@@ -55,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(Goals, CoarseToFine, ::testing::Values(GoalKind::Stand,
 TEST_P(CoarseToFine, ReachesTheMinimumOfTheCavityItself) {
   const Lump lump;
   const OffsetModel model = lump.model();
-  ASSERT_EQ(lump.proxy.mesh.vertices.rows(), 600);
+  ASSERT_EQ(lump.carrier.mesh.vertices.rows(), 600);
   Weights weights;
   weights.smoothness = 0.0;
   const auto goal =

@@ -3,7 +3,7 @@
 
 #include "core/mesh/decimation.h"
 #include "core/reduced/harmonics.h"
-#include "shapes.h"
+#include "reduced/working_scale.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -109,22 +109,11 @@ OffsetField leaningField(const TriangleMesh& mesh) {
   const Eigen::Index n = mesh.vertices.rows();
   field.directions.resize(n, 3);
   field.reach = Vector::Constant(n, 0.4);
-  field.clearance = Vector::Ones(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const Vec3 x = mesh.vertices.row(i).transpose();
     field.directions.row(i) = (x - Vec3(0.2, 0.1, -0.1)).normalized().transpose();
   }
-  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
-    const Vec3 a = mesh.vertices.row(mesh.faces(f, 0)).transpose();
-    const Vec3 b = mesh.vertices.row(mesh.faces(f, 1)).transpose();
-    const Vec3 c = mesh.vertices.row(mesh.faces(f, 2)).transpose();
-    const Vec3 normal = (b - a).cross(c - a).normalized();
-    for (int k = 0; k < 3; ++k) {
-      const int v = mesh.faces(f, k);
-      field.clearance[v] =
-          std::min(field.clearance[v], normal.dot(field.directions.row(v).transpose()));
-    }
-  }
+  field.clearance = clearances(mesh, field.directions);
   return field;
 }
 
@@ -200,7 +189,6 @@ TEST(OuterBounds, KeepTheModelAboveTheGroundAndOnItsFeet) {
   for (Eigen::Index i = 0; i < n; ++i)
     field.directions.row(i) = random.vector().normalized().transpose();
   field.reach = Vector::Ones(n);
-  field.clearance = Vector::Ones(n);
   const OffsetBounds bounds = outerBounds(mesh.vertices, field, 0.01, 0.1);
   for (Eigen::Index i = 0; i < n; ++i) {
     const double height = mesh.vertices(i, 2) + bounds.upper[i] * field.directions(i, 2);

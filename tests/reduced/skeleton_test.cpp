@@ -2,7 +2,7 @@
 #include "core/reduced/skeleton.h"
 
 #include "core/model/frame.h"
-#include "shapes.h"
+#include "reduced/working_scale.h"
 
 #include <gtest/gtest.h>
 
@@ -12,14 +12,6 @@
 
 namespace massprops::testing {
 namespace {
-
-TriangleMesh working(const TriangleMesh& mesh) {
-  const double size =
-      (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).norm();
-  TriangleMesh result = scaled(mesh, 1 / size);
-  result.vertices = snapped(result.vertices);
-  return result;
-}
 
 TEST(MeanCurvatureSkeleton, OfACapsuleIsItsAxis) {
   const TriangleMesh mesh = working(capsule(0.5, 4, 24));
