@@ -49,7 +49,7 @@ Delivery deliver(const Solid& solid, const PosedModel& posed, const CavityTask& 
   }
   Submesh inner = submesh(positions, placed(faces, places));
   result.inner = std::move(inner.mesh);
-  if (result.inner.faces.rows() > 0) flip(result.inner.faces);
+  flip(result.inner.faces);
   result.innerWall = placed(wallOf(task, cavity), places)(inner.vertexOf) * posed.frame.length;
   if (inputServes(solid, task)) return result;
   const Points outer =

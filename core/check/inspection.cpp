@@ -89,7 +89,8 @@ Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleT
   inspection.components = static_cast<int>(components.size());
   const std::vector<int> depths = nestingDepths(inner, components);
   for (std::size_t c = 0; c < components.size(); ++c) {
-    // What crosses the outer surface is reported above; else all of a component is inside, or nothing.
+    // What crosses the outer surface is reported above; else all of a component is inside, or
+    // nothing.
     const bool inside = PointInMesh(outer).contains(inner, components[c]);
     const bool outward = signedVolume(inner, components[c]) > 0.0;
     if (inside && outward && depths[c] == 0) continue;

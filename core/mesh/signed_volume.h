@@ -3,6 +3,8 @@
 
 #include "core/base/types.h"
 
+#include <utility>
+
 namespace massprops {
 
 /// Positive when the closed surface is oriented outwards; length³. Summed from the first face's
@@ -12,7 +14,7 @@ double signedVolume(const Points& vertices, const Faces& faces);
 
 /// Turns every triangle over: counter-clockwise becomes clockwise.
 inline void flip(Faces& faces) {
-  faces.col(1).swap(faces.col(2));
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) std::swap(faces(f, 1), faces(f, 2));
 }
 
 } // namespace massprops

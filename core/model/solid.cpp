@@ -180,7 +180,7 @@ std::vector<char> marksOf(const Submesh& part, const Faces& lids) {
   return marks;
 }
 
-Faces stacked(const std::vector<Faces>& parts) {
+Faces joined(const std::vector<Faces>& parts) {
   Eigen::Index rows = 0;
   for (const Faces& part : parts) rows += part.rows();
   Faces result(rows, 3);
@@ -284,9 +284,9 @@ Solid makeSolid(const TriangleMesh& input, bool closeOpenings, const Mat3& rotat
   if (!solid.mayCross_) requireNoSelfIntersection(x, mesh.faces, order, surface.skinFaces);
 
   const NestedParts parts = nestedParts(x, std::move(components), volumes, surface.hasLids);
-  const Submesh body = submesh(x, stacked(parts.bodies));
+  const Submesh body = submesh(x, joined(parts.bodies));
   solid.mesh_ = body.mesh;
-  solid.cavities_ = submesh(x, stacked(parts.cavities)).mesh;
+  solid.cavities_ = submesh(x, joined(parts.cavities)).mesh;
   if (surface.hasLids) {
     solid.isLid_ = marksOf(body, mesh.faces.bottomRows(mesh.faces.rows() - surface.skinFaces));
   }
