@@ -189,6 +189,7 @@ TEST(OuterBounds, KeepTheModelAboveTheGroundAndOnItsFeet) {
   for (Eigen::Index i = 0; i < n; ++i)
     field.directions.row(i) = random.vector().normalized().transpose();
   field.reach = Vector::Ones(n);
+  field.clearance = Vector::Ones(n);
   const OffsetBounds bounds = outerBounds(mesh.vertices, field, 0.01, 0.1);
   for (Eigen::Index i = 0; i < n; ++i) {
     const double height = mesh.vertices(i, 2) + bounds.upper[i] * field.directions(i, 2);
