@@ -1,9 +1,8 @@
 #include "core/goals/float.h"
 
 #include "core/base/angles.h"
+#include "core/base/symmetric_eigen.h"
 #include "core/physics/hydrostatics.h"
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -48,9 +47,8 @@ WishedPose wishedPose(const Points& outer, const Faces& faces, double waterLevel
   }
   pose.displaced = wished.volume;
   pose.buoyancy = wished.centre;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(
-      wished.waterplaneMoment.topLeftCorner<2, 2>());
-  pose.metacentre = pose.buoyancy.z() + axes.eigenvalues()[0] / pose.displaced;
+  const Eigen::Matrix2d waterplane = wished.waterplaneMoment.topLeftCorner<2, 2>();
+  pose.metacentre = pose.buoyancy.z() + symmetricEigen(waterplane).values[0] / pose.displaced;
   return pose;
 }
 

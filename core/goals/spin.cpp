@@ -1,8 +1,7 @@
 #include "core/goals/spin.h"
 
 #include "core/base/angles.h"
-
-#include <Eigen/Eigenvalues>
+#include "core/base/symmetric_eigen.h"
 
 #include <algorithm>
 #include <cmath>
@@ -141,17 +140,17 @@ private:
 
   Motion motion(const Moments& massMoments) const {
     const MassProperties body = massProperties(massMoments);
-    const Eigen::SelfAdjointEigenSolver<Mat3> principal(body.inertiaTensor);
+    const SymmetricEigen<Mat3> principal = symmetricEigen(body.inertiaTensor);
     double upright = 0.0;
     for (int i = 0; i < 3; ++i) {
-      upright = std::max(upright, std::abs(principal.eigenvectors()(2, i)));
+      upright = std::max(upright, std::abs(principal.vectors(2, i)));
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> horizontal(
-        body.inertiaTensor.topLeftCorner<2, 2>());
+    const Eigen::Matrix2d horizontalPart = body.inertiaTensor.topLeftCorner<2, 2>();
+    const Vec2 horizontal = symmetricEigen(horizontalPart).values;
     const double axial = body.inertiaTensor(2, 2);
     return {(body.centerOfMass.head<2>() - axis_).norm(),
-            std::acos(std::min(1.0, upright)) * kDegrees, axial / horizontal.eigenvalues()[1],
-            axial / horizontal.eigenvalues()[0]};
+            std::acos(std::min(1.0, upright)) * kDegrees, axial / horizontal[1],
+            axial / horizontal[0]};
   }
 
   SpinGoal goal_;

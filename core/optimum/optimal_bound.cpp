@@ -1,9 +1,8 @@
 #include "core/optimum/optimal_bound.h"
 
+#include "core/base/symmetric_eigen.h"
 #include "core/base/tolerances.h"
 #include "core/goals/objective.h"
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -82,11 +81,12 @@ struct Functions {
 
 Functions orthonormalFunctions(const AdmissibleCells& cells, Eigen::Index terms) {
   const RowMatrix means = cells.col(0).cwiseInverse().asDiagonal() * cells.leftCols(terms);
-  const Eigen::SelfAdjointEigenSolver<Matrix> spectrum(means.transpose() * cells.leftCols(terms));
-  const Vector& squares = spectrum.eigenvalues();
+  const SymmetricEigen<Matrix> spectrum =
+      symmetricEigen(Matrix(means.transpose() * cells.leftCols(terms)));
+  const Vector& squares = spectrum.values;
   const Eigen::Index rank = (squares.array() > kLeastSquare * squares.maxCoeff()).count();
   Functions functions;
-  functions.whitening = spectrum.eigenvectors().rightCols(rank) *
+  functions.whitening = spectrum.vectors.rightCols(rank) *
                         squares.tail(rank).cwiseInverse().cwiseSqrt().asDiagonal() *
                         std::sqrt(cells.col(0).sum());
   functions.means = means * functions.whitening;

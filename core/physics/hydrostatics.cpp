@@ -1,9 +1,8 @@
 #include "core/physics/hydrostatics.h"
 
+#include "core/base/symmetric_eigen.h"
 #include "core/base/triangle.h"
 #include "core/physics/moments.h"
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <array>
@@ -172,11 +171,11 @@ public:
           (frame * state_.d.waterplaneMoment * frame.transpose()).topLeftCorner<2, 2>() /
               displaced_ -
           state_.energy * Eigen::Matrix2d::Identity();
-      const Axes axes(hessian);
-      pose_.leastMetacentricHeight = axes.eigenvalues()[0];
-      pose_.greatestMetacentricHeight = axes.eigenvalues()[1];
+      const Axes axes = symmetricEigen(hessian);
+      pose_.leastMetacentricHeight = axes.values[0];
+      pose_.greatestMetacentricHeight = axes.values[1];
       const Vec2 gradient = (frame * (centre_ - state_.d.centre)).head<2>();
-      const bool isStable = gradient.norm() < kLevelled && axes.eigenvalues()[0] >= 0.0;
+      const bool isStable = gradient.norm() < kLevelled && axes.values[0] >= 0.0;
       if (step == kMostSteps || isStable || !descends(frame, downhill(gradient, axes))) break;
     }
     pose_.draught = state_.level - (vertices_ * pose_.up).minCoeff();
@@ -188,7 +187,7 @@ private:
     Displacement d;
     double level, energy;
   };
-  using Axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>;
+  using Axes = SymmetricEigen<Eigen::Matrix2d>;
 
   State at(const Vec3& up) const {
     const double level = levelFor(vertices_, faces_, up, displaced_);
@@ -199,12 +198,12 @@ private:
   static Vec2 downhill(const Vec2& gradient, const Axes& axes) {
     Vec2 turn;
     if (gradient.norm() < kLevelled) {
-      turn = kPush * axes.eigenvectors().col(0);
+      turn = kPush * axes.vectors.col(0);
     } else {
       // Newton's step with the curvatures made positive always leads down.
-      const Vec2 along = axes.eigenvectors().transpose() * gradient;
-      const Vec2 curvature = axes.eigenvalues().cwiseAbs().cwiseMax(1e-6);
-      turn = -axes.eigenvectors() * along.cwiseQuotient(curvature);
+      const Vec2 along = axes.vectors.transpose() * gradient;
+      const Vec2 curvature = axes.values.cwiseAbs().cwiseMax(1e-6);
+      turn = -axes.vectors * along.cwiseQuotient(curvature);
     }
     return turn.norm() > kMostTurn ? Vec2(turn * (kMostTurn / turn.norm())) : turn;
   }

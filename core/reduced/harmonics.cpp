@@ -1,8 +1,8 @@
 #include "core/reduced/harmonics.h"
 
+#include "core/base/symmetric_eigen.h"
 #include "core/mesh/components.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 #include <Spectra/SymEigsShiftSolver.h>
 
@@ -109,10 +109,10 @@ Modes lowestModes(ShiftInvertedLaplacian& op, int k, double shift) {
 /// For small meshes, whose Krylov spaces would be nearly the whole space.
 Modes lowestModesDense(const SparseMatrix& L, const Vector& mass, int k) {
   const Vector scale = mass.cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(
-      Matrix(scale.asDiagonal() * Matrix(L) * scale.asDiagonal()));
-  if (solver.info() != Eigen::Success) throwUnconverged();
-  return {solver.eigenvalues().head(k), solver.eigenvectors().leftCols(k)};
+  const SymmetricEigen<Matrix> all =
+      symmetricEigen(Matrix(scale.asDiagonal() * Matrix(L) * scale.asDiagonal()));
+  if (!all.converged) throwUnconverged();
+  return {all.values.head(k), all.vectors.leftCols(k)};
 }
 
 /// The k lowest of both.
