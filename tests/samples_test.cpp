@@ -35,6 +35,7 @@ void PrintTo(const Sample& sample, std::ostream* os) {
 std::vector<std::string> verdictsOf(GoalKind goal) {
   switch (goal) {
   case GoalKind::Stand:
+  case GoalKind::PublishedStand:
     return {"stands_"};
   case GoalKind::Spin:
     return {"spins_"};

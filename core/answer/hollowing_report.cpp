@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <vector>
 
 namespace massprops {
@@ -30,17 +31,21 @@ MassProperties inModel(const Moments& massMoments, const Frame& frame, double de
 }
 
 /// What a cavity of any shape could do about a goal that is missed.
-std::string outlook(const CavityTask& task, const Verdict& verdict) {
+std::string outlook(const CavityTask& task, const Verdict& verdict, bool isProved) {
   if (!task.bound) return "";
-  if (task.bound->violation <= OptimalBound::kReachable) {
-    return " A cavity of another shape could reach it.";
+  if (task.bound->isReachable()) {
+    return verdict.isReached(task.bound->massMoments) ? " A cavity of another shape could reach it."
+                                                      : "";
   }
-  return " No cavity of any shape that keeps this wall can reach it: " +
-         verdict.bestInWords(task.bound->bestVerdict.value_or(task.bound->massMoments)) + ".";
+  const LevelBound* best = task.bound->bestLevel();
+  return std::string(isProved ? " No cavity of any shape that keeps this wall can reach it: "
+                              : " No cavity of any shape that keeps this wall was found to reach "
+                                "it: ") +
+         verdict.bestInWords(best != nullptr ? best->body : task.bound->massMoments) + ".";
 }
 
 std::string message(const CavityTask& task, const Verdicts& verdicts, const CavityResult& cavity,
-                    const Body& before, const Body& after, double largestWall) {
+                    const Body& before, const Body& after, double largestWall, bool isProved) {
   const bool isReached = verdicts.after.isReached(after.mass);
   const bool keepsConstraints = after.violation <= kFeasibility;
   const bool isSolved = isReached && keepsConstraints;
@@ -60,7 +65,7 @@ std::string message(const CavityTask& task, const Verdicts& verdicts, const Cavi
   }
   if (cavity.status == CavityStatus::NoGain) {
     return sentence + bySolid + ", and no cavity with this wall was found to serve it better." +
-           (keepsConstraints ? "" : outlook(task, verdicts.before));
+           (isSolved ? "" : outlook(task, verdicts.before, isProved));
   }
   if (verdicts.before.isReached(before.mass)) sentence += " (by the solid model too)";
   if (cavity.inspection.components == 0) {
@@ -68,7 +73,15 @@ std::string message(const CavityTask& task, const Verdicts& verdicts, const Cavi
   }
   if (isSolved) return sentence + "; all constraints hold.";
   return sentence + ": with the best cavity found " + missed + "." +
-         (keepsConstraints ? "" : outlook(task, verdicts.before));
+         outlook(task, verdicts.before, isProved);
+}
+
+/// All digits, with spaces between.
+std::string inDigits(const Vector& values) {
+  std::ostringstream text;
+  text.precision(17);
+  for (Eigen::Index i = 0; i < values.size(); ++i) text << (i > 0 ? " " : "") << values[i];
+  return text.str();
 }
 
 /// In words, and as numbers for hosts that take no text from a filter.
@@ -80,6 +93,37 @@ void addRepairs(const Repairs& repairs, Report& report) {
   report.add("duplicate_faces", repairs.duplicateFaces);
   report.add("flipped_components", repairs.flippedComponents);
   report.add("replaced_cavities", repairs.replacedCavities);
+}
+
+/// Where the goal is out of reach: what the best body would do.
+void addBest(const CavityTask& task, const Verdicts& verdicts, Report& report) {
+  const LevelBound* best = task.bound->bestLevel();
+  if (best != nullptr && !task.bound->isReachable()) {
+    verdicts.before.describe(best->body, "best", report);
+  }
+}
+
+/// All that a second program needs to check the proof, in the working frame.
+void addCertificates(const Frame& frame, const Stages& stages, Report& report) {
+  if (stages.secondsCertificate > 0.0) report.add("certified", !stages.certificates.empty());
+  if (stages.certificates.empty()) return;
+  report.add("certificate_origin", frame.origin);
+  report.add("certificate_length", frame.length);
+  for (std::size_t i = 0; i < stages.certificates.size(); ++i) {
+    const Certificate& proof = stages.certificates[i];
+    const std::string number = stages.certificates.size() > 1 ? "_" + std::to_string(i + 1) : "";
+    report.add("certificate_functional" + number, inDigits(proof.functional));
+    report.add("certificate_margin" + number, proof.margin);
+    std::string conditions;
+    for (Eigen::Index r = 0; r < proof.rows.rows(); ++r) {
+      if (proof.multipliers[r] <= 0.0) continue;
+      conditions += (conditions.empty() ? "" : "; ") +
+                    inDigits(Vector::Constant(1, proof.multipliers[r])) + " x " +
+                    inDigits(proof.rows.row(r).transpose());
+    }
+    report.add("certificate_conditions" + number, conditions);
+  }
+  report.add("seconds_certificate", stages.secondsCertificate);
 }
 
 /// Vertices of what moves inwards, lids apart, that have no cavity behind them.
@@ -110,8 +154,9 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Ve
   Report report;
   report.add("goal", goalNames()[static_cast<std::size_t>(options.goal)]);
   report.add("solved", after.violation <= kFeasibility && verdicts.after.isReached(after.mass));
-  report.add("message", message(task, verdicts, cavity, before, after,
-                                stages.largestWall * posed.frame.length));
+  report.add("message",
+             message(task, verdicts, cavity, before, after, stages.largestWall * posed.frame.length,
+                     !stages.certificates.empty()));
   report.add("objective_before", before.objective);
   report.add("objective_after", after.objective);
   report.add("max_constraint_violation", after.violation);
@@ -129,7 +174,8 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Ve
     report.add("objective_limit", task.bound->objective);
     report.add("gap_to_limit", gapToBound(*task.bound, before, after));
     verdicts.before.describe(task.bound->massMoments, "limit", report);
-    if (task.bound->bestVerdict) verdicts.before.describe(*task.bound->bestVerdict, "best", report);
+    addBest(task, verdicts, report);
+    addCertificates(posed.frame, stages, report);
   }
   report.add("print_as", std::string(kPrintAs));
   report.add("min_wall", hasCavity ? cavity.inspection.leastWall * posed.frame.length : 0.0);

@@ -5,21 +5,27 @@
 #include "core/goals/verdict.h"
 #include "core/model/posed_model.h"
 #include "core/model/repair.h"
+#include "core/optimum/certificate.h"
 #include "core/reduced/cavity_search.h"
+
+#include <vector>
 
 namespace massprops {
 
 /// What happened before and beside the search.
 struct Stages {
-  Repairs repairs;           ///< of the input
-  int skeletonFailures = 0;  ///< components on which the mean curvature flow failed
-  double largestWall = 0.0;  ///< working length; of use when there is no room for a cavity
+  Repairs repairs;          ///< of the input
+  int skeletonFailures = 0; ///< components on which the mean curvature flow failed
+  double largestWall = 0.0; ///< working length; of use when there is no room for a cavity
+  /// Of all the goal's conditions, where it is missed and that no cavity can reach it was proved.
+  std::vector<Certificate> certificates;
   double secondsCheck = 0.0; ///< of the input, and making it ready
   double secondsCopy = 0.0;
   double secondsSkeleton = 0.0;
   double secondsBasis = 0.0;
   double secondsLimit = 0.0;
   double secondsLargestWall = 0.0; ///< looking for it
+  double secondsCertificate = 0.0; ///< proving, or trying to
 };
 
 /// A verdict may depend on the outer surface: of the model, and as it has become.

@@ -62,6 +62,9 @@ void requireSensible(const Options& options, Eigen::Index vertexCount, double di
           "water_density must be greater than 0 g/cm³; fresh water has 1.");
   require(finite(options.targetMass) && options.targetMass >= 0.0,
           "target_mass must be 0 (as light as possible) or a mass in grams.");
+  require(options.tippingAngle >= 0.0 && options.tippingAngle < 90.0,
+          "tipping_angle must be 0 (as hard to tip over as possible) or an angle below 90 degrees; "
+          "10 suits most models.");
 }
 
 void requireSensibleForShell(const Options& options) {

@@ -18,6 +18,7 @@ enum class GoalKind {
   Float,
   Hang,
   Mass,
+  PublishedStand,
 };
 
 /// In the order of the dialog.
@@ -62,6 +63,7 @@ struct Options {
   double waterLevel = 0.5;
   double waterDensity = 1.0; ///< Float: g/cm³
   double targetMass = 0.0;   ///< Mass: g; 0 is as light as possible
+  double tippingAngle = 0.0; ///< Stand: wanted, degrees; 0 is as large as possible
   /// Whether a surface with boundary loops is taken as one side of a shell; otherwise it is
   /// refused.
   bool openSurface = false;

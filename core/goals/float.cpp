@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace massprops {
 namespace {
@@ -85,6 +86,21 @@ public:
   }
 
   bool usesInertia() const override { return false; }
+
+  /// The level is a share of the whole body's buoyancy, or a length times m in those shares.
+  std::vector<LinearConditions> conditions() const override {
+    const double most = waterDensity_ * wished_.volume;
+    AffineRows equal = AffineRows::Zero(3, 11);
+    equal(0, 0) = 1.0 / most;
+    equal(0, 10) = -wished_.displaced / wished_.volume;
+    equal.bottomRows<2>().middleCols(1, 2).setIdentity();
+    equal.bottomRows<2>().col(0) = -wished_.buoyancy.head<2>();
+    equal.bottomRows<2>() /= most;
+    AffineRows tooHigh = AffineRows::Zero(1, 11);
+    tooHigh(0, 3) = 1.0 / most;
+    tooHigh(0, 0) = (kLeastStability - wished_.metacentre) / most;
+    return {linearConditions(equal, tooHigh, Eigen::Matrix<double, 1, 11>::Unit(10))};
+  }
 
 private:
   WishedPose wished_;

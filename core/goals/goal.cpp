@@ -5,8 +5,23 @@
 
 namespace massprops {
 
-VerdictBounds Goal::verdictBounds(const Moments& /*massMoments*/, double /*level*/) const {
-  return {};
+LinearConditions linearConditions(const AffineRows& equalities, const AffineRows& inequalities,
+                                  const Eigen::Matrix<double, 1, 11>& perLevel) {
+  const Eigen::Index rows = 2 * equalities.rows() + inequalities.rows();
+  LinearConditions conditions{AffineRows(rows, 11), perLevel.replicate(rows, 1)};
+  conditions.atZero << equalities, -equalities, inequalities;
+  return conditions;
+}
+
+double levelReached(const LinearConditions& conditions, const Moments& massMoments) {
+  const auto at = [&](const AffineRows& rows) {
+    return Vector(rows.leftCols<10>() * massMoments + rows.col(10));
+  };
+  return -at(conditions.atZero).cwiseQuotient(at(conditions.slopes)).maxCoeff();
+}
+
+std::optional<double> Goal::measure(const Moments& /*massMoments*/) const {
+  return std::nullopt;
 }
 
 double largestViolation(const Goal& goal, const Moments& massMoments) {

@@ -4,6 +4,10 @@
 #include "core/base/types.h"
 #include "core/physics/mass_properties.h"
 
+#include <memory>
+#include <optional>
+#include <vector>
+
 namespace massprops {
 
 /// Row vectors of derivatives by the ten mass moments.
@@ -20,12 +24,22 @@ struct GoalConstraints {
   MomentGradients gradients;
 };
 
-/// What a verdict that is one number t, the greater the better, asks of a body: it is at least t
-/// exactly where all values are ≤ 0. `slopes`: the values' derivatives by t, r entries.
-struct VerdictBounds {
-  GoalConstraints constraints;
-  Vector slopes;
+/// Rows of a functional that is affine in the ten mass moments: the last column is the constant.
+using AffineRows = Eigen::Matrix<double, Eigen::Dynamic, 11, Eigen::RowMajor>;
+
+/// (atZero + t slopes)·(M, 1) ≤ 0, r rows: whether the body with the moments M reaches the level t,
+/// the greater the better. The slopes are positive at every body.
+struct LinearConditions {
+  AffineRows atZero, slopes;
 };
+
+/// Rows that are to be 0 and rows that are to be ≤ 0 as conditions, the former with both signs.
+/// `perLevel`: the slope of each.
+LinearConditions linearConditions(const AffineRows& equalities, const AffineRows& inequalities,
+                                  const Eigen::Matrix<double, 1, 11>& perLevel);
+
+/// The level that a body reaches.
+double levelReached(const LinearConditions& conditions, const Moments& massMoments);
 
 /// A goal sees a body through its ten mass moments M in the working frame, the material's density
 /// being 1: M = outer − (1 − f) inner with f the filling's density, so that any function of M is
@@ -43,9 +57,15 @@ public:
   virtual GoalConstraints inequalities(const Moments& massMoments) const = 0;
   /// Whether second moments matter; if not, their derivatives are 0 and need not be computed.
   virtual bool usesInertia() const = 0;
-  /// Bounds of the verdict at `level`; none where it is more than one number. Each times the mass
-  /// is linear in the moments.
-  virtual VerdictBounds verdictBounds(const Moments& massMoments, double level) const;
+  /// What the goal asks for, where that is linear in the moments: it is met by a body that reaches
+  /// `wantedLevel` of one of these. Empty: it is not linear.
+  virtual std::vector<LinearConditions> conditions() const { return {}; }
+  virtual double wantedLevel() const { return 0.0; }
+  /// The verdict as one number in a unit that people know, the greater the better; empty: it is
+  /// more than one, or as good as the objective.
+  virtual std::optional<double> measure(const Moments& massMoments) const;
+  /// What to pursue where the constraints cannot be kept; null: their least violation.
+  virtual std::unique_ptr<Goal> insteadOfConstraints() const { return nullptr; }
 };
 
 /// Largest |equality| or positive inequality.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace massprops {
 namespace {
@@ -43,6 +44,17 @@ public:
   }
 
   bool usesInertia() const override { return false; }
+
+  /// S_x − p_x m = 0, S_y − p_y m = 0, S_z − (p_z − depth) m ≤ 0; the level is a length times m.
+  std::vector<LinearConditions> conditions() const override {
+    AffineRows aside = AffineRows::Zero(2, 11);
+    aside.middleCols(1, 2).setIdentity();
+    aside.col(0) = -suspension_.head<2>();
+    AffineRows tooHigh = AffineRows::Zero(1, 11);
+    tooHigh(0, 3) = 1.0;
+    tooHigh(0, 0) = kLeastDepth - suspension_.z();
+    return {linearConditions(aside, tooHigh, Eigen::Matrix<double, 1, 11>::Unit(0))};
+  }
 
 private:
   Vec3 suspension_;

@@ -1,6 +1,7 @@
 #include "core/goals/mass.h"
 
 #include <cmath>
+#include <vector>
 
 namespace massprops {
 namespace {
@@ -32,6 +33,21 @@ public:
   GoalConstraints inequalities(const Moments& /*massMoments*/) const override { return {}; }
 
   bool usesInertia() const override { return false; }
+
+  /// The level is a share of the solid's mass.
+  std::vector<LinearConditions> conditions() const override {
+    if (!target_) return {};
+    AffineRows excess = AffineRows::Zero(1, 11);
+    excess(0, 0) = 1.0 / solidMass_;
+    excess(0, 10) = -*target_ / solidMass_;
+    return {linearConditions(excess, AffineRows(0, 11), Eigen::Matrix<double, 1, 11>::Unit(10))};
+  }
+
+  /// Without a target: as light as possible.
+  std::optional<double> measure(const Moments& massMoments) const override {
+    if (target_) return std::nullopt;
+    return -massMoments[0] / solidMass_;
+  }
 
 private:
   double solidMass_;

@@ -3,6 +3,7 @@
 #include "core/goals/float.h"
 #include "core/goals/hang.h"
 #include "core/goals/mass.h"
+#include "core/goals/published_stand.h"
 #include "core/goals/roll_upright.h"
 #include "core/goals/spin.h"
 #include "core/goals/stand.h"
@@ -65,8 +66,13 @@ std::vector<GoalEntry> allGoals() {
   return {
       {GoalKind::Stand, "Stand",
        "it stands on its ground contacts, as hard to tip over as possible", 0,
-       [](const In& in) { return makeStandGoal(in.posed.contact, in.options.weights); },
-       [](const In& in) { return makeStandVerdict(in.posed.contact, unit(in)); }},
+       [](const In& in) {
+         return makeStandGoal(in.posed.contact, in.options.weights, in.options.tippingAngle,
+                              solid(in)[0]);
+       },
+       [](const In& in) {
+         return makeStandVerdict(in.posed.contact, unit(in), in.options.tippingAngle);
+       }},
       {GoalKind::Spin, "Spin", "it spins as a top about the vertical axis through its lowest point",
        4, [](const In& in) { return makeSpinGoal(solid(in), in.options.weights, spinAxis(in)); },
        [](const In& in) { return makeSpinVerdict(solid(in), spinAxis(in), unit(in)); }},
@@ -102,6 +108,12 @@ std::vector<GoalEntry> allGoals() {
       {GoalKind::Mass, "Mass", "it weighs as much as is asked for", 1,
        [](const In& in) { return makeMassGoal(solid(in)[0], targetMass(in), in.options.weights); },
        [](const In& in) { return makeMassVerdict(targetMass(in), grams(in)); }},
+      {GoalKind::PublishedStand, "Stand (published)",
+       "it stands on its ground contacts, by the objective that the literature prints", 0,
+       [](const In& in) {
+         return makePublishedStandGoal(in.posed.contact, unit(in), in.options.weights);
+       },
+       [](const In& in) { return makeStandVerdict(in.posed.contact, unit(in)); }},
   };
 }
 

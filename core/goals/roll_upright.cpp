@@ -1,6 +1,7 @@
 #include "core/goals/roll_upright.h"
 
 #include "core/base/angles.h"
+#include "core/goals/published_stand.h"
 #include "core/goals/stand.h"
 #include "core/physics/stable_poses.h"
 
@@ -71,7 +72,7 @@ private:
 } // namespace
 
 std::unique_ptr<Goal> makeRollUprightGoal(const ContactArea& area, const Weights& weights) {
-  return makeStandGoal(areaOrDisc(area), weights);
+  return makePublishedStandGoal(areaOrDisc(area), 1.0, weights);
 }
 
 std::unique_ptr<Verdict> makeRollUprightVerdict(const ContactArea& area, const Points& outer,

@@ -1,193 +1,140 @@
 #include "core/goals/stand.h"
 
 #include "core/base/angles.h"
+#include "core/goals/tipping.h"
 
 #include <cmath>
-#include <cstddef>
 #include <utility>
 #include <vector>
 
 namespace massprops {
 namespace {
 
-/// The centre of mass keeps off the area's border by this share, for print and ground are not
-/// exact.
-constexpr double kMargin = 0.1;
-/// Constraints of a contact polygon: the solver's time grows with them. One with more edges has one
-/// for all neighbouring edges that turn by no more than a full turn through this number.
-constexpr std::size_t kMostSides = 64;
-
-struct Edge {
-  Vec2 normal;  ///< unit, outwards
-  double limit; ///< of the centre of mass along the normal
-};
-
-/// Neighbouring edges, from `first` to before `last`.
-struct Side {
-  std::size_t first, last;
-};
-
-/// The area less its margin, about its centre.
-ContactArea withinMargin(const ContactArea& area) {
-  return scaled(area, 1.0 / (1.0 - kMargin));
+double tippingAngleOf(const ContactArea& area, const Moments& massMoments) {
+  return tippingAngle(area, massProperties(massMoments).centerOfMass);
 }
 
-std::vector<Edge> edgesOf(const std::vector<Vec2>& polygon) {
-  std::vector<Edge> edges;
-  edges.reserve(polygon.size());
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec2 edge = polygon[(i + 1) % polygon.size()] - polygon[i];
-    const Vec2 normal = Vec2(edge.y(), -edge.x()).normalized();
-    edges.push_back({normal, (1.0 - kMargin) * normal.dot(polygon[i])});
-  }
-  return edges;
-}
-
-std::vector<Side> sidesOf(const std::vector<Edge>& edges) {
-  const double turn = edges.size() > kMostSides ? 2.0 * kPi / kMostSides : 0.0;
-  std::vector<Side> sides;
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    const bool isNext = turn == 0.0 || sides.empty() ||
-                        edges[sides.back().first].normal.dot(edges[e].normal) < std::cos(turn);
-    if (isNext) sides.push_back({e, e});
-    sides.back().last = e + 1;
-  }
-  return sides;
-}
-
-/// A horizontal direction in which the body may tip over.
-struct Direction {
-  Vec2 unit;
-  double extent; ///< of the contact area
-};
-
-/// Outward normals of the polygon's sides, and directions all round for corners and ellipses.
-std::vector<Direction> tippingDirections(const ContactArea& area, const std::vector<Edge>& edges,
-                                         const std::vector<Side>& sides) {
-  constexpr int kAround = 72;
-  std::vector<Direction> directions;
-  directions.reserve(sides.size() + kAround);
-  const auto add = [&](const Vec2& unit) { directions.push_back({unit, extent(area, unit)}); };
-  for (const Side& side : sides) add(edges[(side.first + side.last) / 2].normal);
-  for (int i = 0; i < kAround; ++i) {
-    const double angle = 2.0 * kPi * i / kAround;
-    add({std::cos(angle), std::sin(angle)});
-  }
-  return directions;
-}
-
+/// As hard to tip over as possible.
 class StandGoal final : public Goal {
 public:
   StandGoal(ContactArea area, const Weights& weights)
-      : area_(std::move(area)), weight_(weights.centerOfMass) {
-    if (!area_.radii) edges_ = edgesOf(area_.polygon);
-    sides_ = sidesOf(edges_);
-    directions_ = tippingDirections(area_, edges_, sides_);
-  }
+      : area_(std::move(area)), directions_(tippingDirections(area_)),
+        weight_(weights.centerOfMass) {}
 
   GoalValue objective(const Moments& massMoments) const override {
-    const MassProperties body = massProperties(massMoments);
-    const Vec3& c = body.centerOfMass;
-    const auto gradient = massPropertyGradients(body).centerOfMass;
+    GoalValue f = negativeSmoothTipping(directions_, massMoments);
+    f.value *= weight_;
+    f.gradient *= weight_;
+    return f;
+  }
+
+  GoalConstraints equalities(const Moments& /*massMoments*/) const override { return {}; }
+  GoalConstraints inequalities(const Moments& /*massMoments*/) const override { return {}; }
+  bool usesInertia() const override { return false; }
+
+  std::vector<LinearConditions> conditions() const override {
+    return {standingConditions(directions_)};
+  }
+  std::optional<double> measure(const Moments& massMoments) const override {
+    return tippingAngleOf(area_, massMoments);
+  }
+
+private:
+  ContactArea area_;
+  std::vector<TippingDirection> directions_;
+  double weight_;
+};
+
+/// The least material that stands up to a wanted angle.
+class LeastMaterialGoal final : public Goal {
+public:
+  LeastMaterialGoal(ContactArea area, const Weights& weights, double wantedAngle, double solidMass)
+      : area_(std::move(area)), directions_(tippingDirections(area_)), weights_(weights),
+        wanted_(std::tan(wantedAngle / kDegrees)), solidMass_(solidMass) {}
+
+  GoalValue objective(const Moments& massMoments) const override {
     GoalValue f;
-    f.value = weight_ * (c.x() * c.x() + c.y() * c.y() + c.z());
-    f.gradient = weight_ * Eigen::RowVector3d(2.0 * c.x(), 2.0 * c.y(), 1.0) * gradient;
+    f.value = weights_.centerOfMass * massMoments[0] / solidMass_;
+    f.gradient[0] = weights_.centerOfMass / solidMass_;
     return f;
   }
 
   GoalConstraints equalities(const Moments& /*massMoments*/) const override { return {}; }
 
+  /// u·c + t c_z ≤ extent(u) for all directions, and for the one that the body tips over in.
   GoalConstraints inequalities(const Moments& massMoments) const override {
     const MassProperties body = massProperties(massMoments);
     const Vec3& c = body.centerOfMass;
     const auto gradient = massPropertyGradients(body).centerOfMass;
-    GoalConstraints g;
-    if (area_.radii) {
-      // (c_x/r_x)² + (c_y/r_y)² ≤ (1 − margin)², as a length of the smaller radius
-      const Vec2 radii = *area_.radii;
-      const double length = 0.5 * radii.minCoeff();
-      const Vec2 scaledCentre = c.head<2>().cwiseQuotient(radii);
-      g.values.resize(2);
-      g.gradients.resize(2, 10);
-      g.values[0] = length * (scaledCentre.squaredNorm() - (1.0 - kMargin) * (1.0 - kMargin));
-      g.gradients.row(0) =
-          length * 2.0 * scaledCentre.cwiseQuotient(radii).transpose() * gradient.topRows<2>();
-    } else {
-      // n_e·c ≤ (1 − margin) h_e for every edge e at distance h_e from the centre
-      const auto rows = static_cast<Eigen::Index>(sides_.size());
-      g.values.resize(rows + 1);
-      g.gradients.resize(rows + 1, 10);
-      for (Eigen::Index row = 0; row < rows; ++row) {
-        const Edge& edge = worstEdge(sides_[static_cast<std::size_t>(row)], c.head<2>());
-        g.values[row] = edge.normal.dot(c.head<2>()) - edge.limit;
-        g.gradients.row(row) = edge.normal.transpose() * gradient.topRows<2>();
-      }
+    const auto count = static_cast<Eigen::Index>(directions_.size());
+    GoalConstraints g{Vector(count + 1), MomentGradients(count + 1, 10)};
+    for (Eigen::Index i = 0; i <= count; ++i) {
+      const Vec2 u = i < count ? directions_[static_cast<std::size_t>(i)].unit
+                               : weakestDirection(area_, c.head<2>());
+      g.values[i] = u.dot(c.head<2>()) + wanted_ * c.z() - extent(area_, u);
+      g.gradients.row(i) = u.transpose() * gradient.topRows<2>() + wanted_ * gradient.row(2);
     }
-    const Eigen::Index last = g.values.size() - 1;
-    g.values[last] = -c.z();
-    g.gradients.row(last) = -gradient.row(2);
     return g;
   }
 
   bool usesInertia() const override { return false; }
 
-  /// The tipping angle is at least atan t where extent(u) − u·c ≥ t c_z for every horizontal u.
-  VerdictBounds verdictBounds(const Moments& massMoments, double level) const override {
-    const MassProperties body = massProperties(massMoments);
-    const Vec3& c = body.centerOfMass;
-    const auto gradient = massPropertyGradients(body).centerOfMass;
-    const auto rows = static_cast<Eigen::Index>(directions_.size());
-    VerdictBounds bounds{{Vector(rows), MomentGradients(rows, 10)}, Vector::Constant(rows, c.z())};
-    for (Eigen::Index r = 0; r < rows; ++r) {
-      const Direction& u = directions_[static_cast<std::size_t>(r)];
-      bounds.constraints.values[r] = u.unit.dot(c.head<2>()) + level * c.z() - u.extent;
-      bounds.constraints.gradients.row(r) =
-          u.unit.transpose() * gradient.topRows<2>() + level * gradient.row(2);
-    }
-    return bounds;
+  std::vector<LinearConditions> conditions() const override {
+    return {standingConditions(directions_)};
+  }
+  double wantedLevel() const override { return wanted_; }
+  std::unique_ptr<Goal> insteadOfConstraints() const override {
+    return std::make_unique<StandGoal>(area_, weights_);
   }
 
 private:
-  const Edge& worstEdge(const Side& side, const Vec2& c) const {
-    std::size_t worst = side.first;
-    const auto beyond = [&](std::size_t e) { return edges_[e].normal.dot(c) - edges_[e].limit; };
-    for (std::size_t e = side.first + 1; e < side.last; ++e) {
-      if (beyond(e) > beyond(worst)) worst = e;
-    }
-    return edges_[worst];
-  }
-
   ContactArea area_;
-  std::vector<Edge> edges_; ///< of a polygon
-  std::vector<Side> sides_;
-  std::vector<Direction> directions_;
-  double weight_;
+  std::vector<TippingDirection> directions_;
+  Weights weights_;
+  double wanted_; ///< tangent of the angle
+  double solidMass_;
 };
 
 class StandVerdict final : public Verdict {
 public:
-  StandVerdict(ContactArea area, double lengthUnit)
-      : area_(std::move(area)), lengthUnit_(lengthUnit) {}
+  StandVerdict(ContactArea area, double lengthUnit, double wantedAngle)
+      : area_(std::move(area)), lengthUnit_(lengthUnit), wantedAngle_(wantedAngle) {}
 
-  bool isReached(const Moments& massMoments) const override { return angle(massMoments) > 0.0; }
+  bool isReached(const Moments& massMoments) const override {
+    const double angle = tippingAngleOf(area_, massMoments);
+    return angle > 0.0 && angle >= wantedAngle_ - kSameAngle;
+  }
 
   std::string worstViolation(const Moments& massMoments) const override {
+    const double angle = tippingAngleOf(area_, massMoments);
+    if (angle > 0.0 && wantedAngle_ == 0.0) {
+      return "the centre of mass lies in the outermost tenth of the contact area, which the "
+             "published constraints keep as a margin";
+    }
+    if (angle > 0.0) {
+      return "it tips over at " + toString(angle) + "\u00b0 instead of " + toString(wantedAngle_) +
+             "\u00b0";
+    }
     const Vec3 c = massProperties(massMoments).centerOfMass;
-    const double outside = -signedDistance(withinMargin(area_), c.head<2>());
-    return -c.z() > outside
-               ? "the centre of mass lies " + toString(-c.z() * lengthUnit_) + " below the ground"
-               : "the centre of mass lies " + toString(outside * lengthUnit_) +
-                     " outside of the contact area less its safety margin of a tenth";
+    return "the centre of mass lies " +
+           toString(-signedDistance(area_, c.head<2>()) * lengthUnit_) +
+           " outside of the contact area";
+  }
+
+  std::string whatIsMissed(const Moments& massMoments) const override {
+    return worstViolation(massMoments);
   }
 
   void describe(const Moments& massMoments, const std::string& suffix,
                 Report& report) const override {
-    report.add("tip_angle_" + suffix, angle(massMoments));
-    report.add("stands_" + suffix, isReached(massMoments));
+    const double angle = tippingAngleOf(area_, massMoments);
+    report.add("tip_angle_" + suffix, angle);
+    report.add("stands_" + suffix, angle > 0.0);
   }
 
   std::string bestInWords(const Moments& massMoments) const override {
-    return "the best possible tipping angle is " + toString(angle(massMoments)) + "\u00b0";
+    return "the best possible tipping angle is " + toString(tippingAngleOf(area_, massMoments)) +
+           "\u00b0";
   }
 
   /// The contact area, and the centres of mass plumb above or beside it.
@@ -206,22 +153,25 @@ public:
   }
 
 private:
-  double angle(const Moments& massMoments) const {
-    return tippingAngle(area_, massProperties(massMoments).centerOfMass);
-  }
+  /// A wanted angle is met within what constraints are.
+  static constexpr double kSameAngle = 1e-4;
 
   ContactArea area_;
   double lengthUnit_;
+  double wantedAngle_;
 };
 
 } // namespace
 
-std::unique_ptr<Goal> makeStandGoal(const ContactArea& area, const Weights& weights) {
-  return std::make_unique<StandGoal>(area, weights);
+std::unique_ptr<Goal> makeStandGoal(const ContactArea& area, const Weights& weights,
+                                    double wantedAngle, double solidMass) {
+  if (wantedAngle <= 0.0) return std::make_unique<StandGoal>(area, weights);
+  return std::make_unique<LeastMaterialGoal>(area, weights, wantedAngle, solidMass);
 }
 
-std::unique_ptr<Verdict> makeStandVerdict(const ContactArea& area, double lengthUnit) {
-  return std::make_unique<StandVerdict>(area, lengthUnit);
+std::unique_ptr<Verdict> makeStandVerdict(const ContactArea& area, double lengthUnit,
+                                          double wantedAngle) {
+  return std::make_unique<StandVerdict>(area, lengthUnit, wantedAngle);
 }
 
 } // namespace massprops

@@ -1,4 +1,4 @@
-// Stand: the body stands on its contact area.
+// Stand: the body stands on its contact area, as hard to tip over as possible.
 #pragma once
 
 #include "core/base/options.h"
@@ -10,12 +10,15 @@
 
 namespace massprops {
 
-/// Minimises c_x² + c_y² + c_z over the area's centre, the centre of mass kept above the area,
-/// shrunk by a tenth. Neighbouring edges of a polygon with very many corners have one constraint in
-/// common, that of the edge that is violated most. [PWLSH13, Sec. 4; MAB15, Sec. 5]
-std::unique_ptr<Goal> makeStandGoal(const ContactArea& area, const Weights& weights);
+/// Maximises the tipping angle or, where `wantedAngle` > 0 (degrees), minimises the material of a
+/// body that tips over at that angle at the earliest. `solidMass`: of the body without a cavity,
+/// density 1. [PWLSH13, Sec. 4; docs/math.md "Stand"]
+std::unique_ptr<Goal> makeStandGoal(const ContactArea& area, const Weights& weights,
+                                    double wantedAngle = 0.0, double solidMass = 1.0);
 
-/// The tipping angle. `lengthUnit`: model units per working unit, here and for the other goals.
-std::unique_ptr<Verdict> makeStandVerdict(const ContactArea& area, double lengthUnit);
+/// The tipping angle, more than 0 and at least `wantedAngle`. `lengthUnit`: model units per working
+/// unit, here and for the other goals.
+std::unique_ptr<Verdict> makeStandVerdict(const ContactArea& area, double lengthUnit,
+                                          double wantedAngle = 0.0);
 
 } // namespace massprops

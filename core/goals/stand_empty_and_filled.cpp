@@ -1,8 +1,12 @@
 #include "core/goals/stand_empty_and_filled.h"
 
 #include "core/goals/stand.h"
+#include "core/goals/tipping.h"
+#include "core/model/contact.h"
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace massprops {
 namespace {
@@ -16,48 +20,70 @@ public:
   }
   /// d(filled)/d(empty)
   double slope() const { return 1.0 - density_; }
+  /// Functionals of the filled body as such of the empty one.
+  AffineRows seenFromEmpty(const AffineRows& ofFilled) const {
+    AffineRows rows = ofFilled;
+    rows.leftCols<10>() *= slope();
+    rows.col(10) += density_ * ofFilled.leftCols<10>() * outer_;
+    return rows;
+  }
 
 private:
   Moments outer_;
   double density_;
 };
 
-/// Stand, asked of two bodies at once.
+/// The smaller of the tipping angles of two bodies at once.
 class StandEmptyAndFilledGoal final : public Goal {
 public:
-  StandEmptyAndFilledGoal(std::unique_ptr<Goal> stand, Filling filling)
-      : stand_(std::move(stand)), filling_(std::move(filling)) {}
+  StandEmptyAndFilledGoal(ContactArea area, Filling filling, const Weights& weights)
+      : area_(std::move(area)), directions_(tippingDirections(area_)), filling_(std::move(filling)),
+        weight_(weights.centerOfMass) {}
 
   GoalValue objective(const Moments& massMoments) const override {
-    const GoalValue empty = stand_->objective(massMoments);
-    const GoalValue full = stand_->objective(filling_.filled(massMoments));
-    return {empty.value + full.value, empty.gradient + filling_.slope() * full.gradient};
+    const GoalValue empty = negativeSmoothTipping(directions_, massMoments);
+    GoalValue full = negativeSmoothTipping(directions_, filling_.filled(massMoments));
+    full.gradient *= filling_.slope();
+    GoalValue f = smoothMaximum(empty, full);
+    f.value *= weight_;
+    f.gradient *= weight_;
+    return f;
   }
 
   GoalConstraints equalities(const Moments& /*massMoments*/) const override { return {}; }
-
-  GoalConstraints inequalities(const Moments& massMoments) const override {
-    const GoalConstraints empty = stand_->inequalities(massMoments);
-    const GoalConstraints full = stand_->inequalities(filling_.filled(massMoments));
-    GoalConstraints both{Vector(2 * empty.values.size()),
-                         MomentGradients(2 * empty.values.size(), 10)};
-    both.values << empty.values, full.values;
-    both.gradients << empty.gradients, filling_.slope() * full.gradients;
-    return both;
-  }
-
+  GoalConstraints inequalities(const Moments& /*massMoments*/) const override { return {}; }
   bool usesInertia() const override { return false; }
 
+  std::vector<LinearConditions> conditions() const override {
+    const LinearConditions empty = standingConditions(directions_);
+    const LinearConditions full{filling_.seenFromEmpty(empty.atZero),
+                                filling_.seenFromEmpty(empty.slopes)};
+    LinearConditions both{AffineRows(2 * empty.atZero.rows(), 11),
+                          AffineRows(2 * empty.atZero.rows(), 11)};
+    both.atZero << empty.atZero, full.atZero;
+    both.slopes << empty.slopes, full.slopes;
+    return {both};
+  }
+
+  std::optional<double> measure(const Moments& massMoments) const override {
+    const auto angle = [&](const Moments& body) {
+      return tippingAngle(area_, massProperties(body).centerOfMass);
+    };
+    return std::min(angle(massMoments), angle(filling_.filled(massMoments)));
+  }
+
 private:
-  std::unique_ptr<Goal> stand_;
+  ContactArea area_;
+  std::vector<TippingDirection> directions_;
   Filling filling_;
+  double weight_;
 };
 
 class StandEmptyAndFilledVerdict final : public Verdict {
 public:
-  StandEmptyAndFilledVerdict(std::unique_ptr<Goal> standGoal, std::unique_ptr<Verdict> stand,
-                             Filling filling)
-      : standGoal_(std::move(standGoal)), stand_(std::move(stand)), filling_(std::move(filling)) {}
+  StandEmptyAndFilledVerdict(ContactArea area, double lengthUnit, Filling filling)
+      : area_(std::move(area)), stand_(makeStandVerdict(area_, lengthUnit)),
+        filling_(std::move(filling)) {}
 
   bool isReached(const Moments& massMoments) const override {
     return stand_->isReached(massMoments) && stand_->isReached(filling_.filled(massMoments));
@@ -65,8 +91,10 @@ public:
 
   std::string worstViolation(const Moments& massMoments) const override {
     const Moments full = filling_.filled(massMoments);
-    const bool emptyIsWorse =
-        largestViolation(*standGoal_, massMoments) >= largestViolation(*standGoal_, full);
+    const auto angle = [&](const Moments& body) {
+      return tippingAngle(area_, massProperties(body).centerOfMass);
+    };
+    const bool emptyIsWorse = angle(massMoments) <= angle(full);
     return (emptyIsWorse ? "empty, " : "filled, ") +
            stand_->worstViolation(emptyIsWorse ? massMoments : full);
   }
@@ -83,7 +111,7 @@ public:
   }
 
 private:
-  std::unique_ptr<Goal> standGoal_;
+  ContactArea area_;
   std::unique_ptr<Verdict> stand_;
   Filling filling_;
 };
@@ -92,15 +120,13 @@ private:
 
 std::unique_ptr<Goal> makeStandEmptyAndFilledGoal(const ContactArea& area, const Moments& outer,
                                                   double filling, const Weights& weights) {
-  return std::make_unique<StandEmptyAndFilledGoal>(makeStandGoal(area, weights),
-                                                   Filling(outer, filling));
+  return std::make_unique<StandEmptyAndFilledGoal>(area, Filling(outer, filling), weights);
 }
 
 std::unique_ptr<Verdict> makeStandEmptyAndFilledVerdict(const ContactArea& area,
                                                         const Moments& outer, double filling,
                                                         double lengthUnit) {
-  return std::make_unique<StandEmptyAndFilledVerdict>(
-      makeStandGoal(area, {}), makeStandVerdict(area, lengthUnit), Filling(outer, filling));
+  return std::make_unique<StandEmptyAndFilledVerdict>(area, lengthUnit, Filling(outer, filling));
 }
 
 } // namespace massprops

@@ -54,19 +54,29 @@ Vec2 centroid(const std::vector<Vec2>& polygon) {
   return base + sum / twice;
 }
 
-/// The distance to the nearest edge's line inside of the polygon, minus the distance to the polygon
-/// outside.
-double marginWithin(const std::vector<Vec2>& polygon, const Vec2& c) {
+/// Inside of the polygon the normal of the edge whose line is nearest, outside the direction from
+/// the nearest point.
+Vec2 weakestDirection(const std::vector<Vec2>& polygon, const Vec2& c) {
   double inside = std::numeric_limits<double>::infinity();
   double outside = std::numeric_limits<double>::infinity();
+  Vec2 normal = Vec2::UnitX();
+  Vec2 away = Vec2::Zero();
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec2& p = polygon[i];
     const Vec2 edge = polygon[(i + 1) % polygon.size()] - p;
-    inside = std::min(inside, cross(edge, c - p) / edge.norm());
+    const double within = cross(edge, c - p) / edge.norm();
+    if (within < inside) {
+      inside = within;
+      normal = Vec2(edge.y(), -edge.x()).normalized();
+    }
     const double t = std::clamp(edge.dot(c - p) / edge.squaredNorm(), 0.0, 1.0);
-    outside = std::min(outside, (c - p - t * edge).norm());
+    const Vec2 offset = c - p - t * edge;
+    if (offset.norm() < outside) {
+      outside = offset.norm();
+      away = offset;
+    }
   }
-  return inside >= 0.0 ? inside : -outside;
+  return inside >= 0.0 || outside == 0.0 ? normal : Vec2(away / outside);
 }
 
 Vec2 direction(double angle) {
@@ -74,7 +84,7 @@ Vec2 direction(double angle) {
 }
 
 /// Smooth in the direction's angle: a scan brackets the minimum, golden sections refine it.
-double marginWithin(const ContactArea& ellipse, const Vec2& c) {
+Vec2 weakestDirectionOfEllipse(const ContactArea& ellipse, const Vec2& c) {
   const auto marginAt = [&](double angle) {
     return extent(ellipse, direction(angle)) - direction(angle).dot(c);
   };
@@ -92,7 +102,7 @@ double marginWithin(const ContactArea& ellipse, const Vec2& c) {
     const double q = low + golden * (high - low);
     (marginAt(p) < marginAt(q) ? high : low) = marginAt(p) < marginAt(q) ? q : p;
   }
-  return marginAt(0.5 * (low + high));
+  return direction(0.5 * (low + high));
 }
 
 } // namespace
@@ -158,8 +168,13 @@ std::vector<Vec2> outline(const ContactArea& area) {
   return corners;
 }
 
+Vec2 weakestDirection(const ContactArea& area, const Vec2& c) {
+  return area.radii ? weakestDirectionOfEllipse(area, c) : weakestDirection(area.polygon, c);
+}
+
 double signedDistance(const ContactArea& area, const Vec2& c) {
-  return area.radii ? marginWithin(area, c) : marginWithin(area.polygon, c);
+  const Vec2 u = weakestDirection(area, c);
+  return extent(area, u) - u.dot(c);
 }
 
 double tippingAngle(const ContactArea& area, const Vec3& centre) {

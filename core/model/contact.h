@@ -40,6 +40,9 @@ double extent(const ContactArea& area, const Vec2& u);
 /// Corners of the area, counter-clockwise; an ellipse by 64 points.
 std::vector<Vec2> outline(const ContactArea& area);
 
+/// The unit direction u with the least extent(u) − u·c.
+Vec2 weakestDirection(const ContactArea& area, const Vec2& c);
+
 /// Distance of `c` from the area's border, positive inside, negative outside: the minimum over all
 /// unit directions u of extent(u) − u·c.
 double signedDistance(const ContactArea& area, const Vec2& c);

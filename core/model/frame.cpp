@@ -4,6 +4,11 @@
 #include <cmath>
 
 namespace massprops {
+namespace {
+
+constexpr double kGrid = 4294967296.0;
+
+} // namespace
 
 Mat3 rotationToUp(UpAxis up) {
   Mat3 rotation;
@@ -38,8 +43,11 @@ Points toModel(const Frame& frame, const Points& working) {
 }
 
 Points snapped(const Points& working) {
-  constexpr double kGrid = 4294967296.0;
   return (working.array() * kGrid).round().matrix() / kGrid;
+}
+
+double snappedUp(double working) {
+  return std::ceil(working * kGrid) / kGrid;
 }
 
 double roundOff(const Frame& frame) {

@@ -22,6 +22,8 @@ Points toModel(const Frame& frame, const Points& working);
 /// Rounds to multiples of 2⁻³² (0.2 nanometres on a metre): scaling or moving a model changes the
 /// last bits of its working coordinates, and the skeleton's comparisons must not see that.
 Points snapped(const Points& working);
+/// The next greater one on the same grid.
+double snappedUp(double working);
 
 /// By how much, in working lengths, a distance in model coordinates may fall short of the same one
 /// between snapped vertices and points that came from working coordinates: each is moved by at most

@@ -40,6 +40,15 @@ void arrangeInSpace(const Solid& solid, PosedModel& posed) {
   }
 }
 
+ContactArea snappedArea(ContactArea area) {
+  const auto snap = [](Vec2& p) {
+    p = snapped(Points(Eigen::RowVector3d(p.x(), p.y(), 0.0))).row(0).head<2>().transpose();
+  };
+  for (Vec2& corner : area.polygon) snap(corner);
+  if (area.radii) snap(*area.radii);
+  return area;
+}
+
 Eigen::Index placeOf(Eigen::Index row, const std::vector<int>& places) {
   const auto n = static_cast<Eigen::Index>(places.size());
   return row < n ? places[static_cast<std::size_t>(row)]
@@ -67,15 +76,16 @@ PosedModel makePosedModel(const Solid& solid, const Options& options) {
   std::optional<Vec2> radii;
   if (options.radiusX && options.radiusY) radii = Vec2(*options.radiusX, *options.radiusY);
   const GroundContact contact = groundContact(upright, radii);
-  if (options.goal == GoalKind::Stand || options.goal == GoalKind::StandEmptyAndFilled) {
+  if (options.goal == GoalKind::Stand || options.goal == GoalKind::PublishedStand ||
+      options.goal == GoalKind::StandEmptyAndFilled) {
     requireArea(contact.area);
   }
   posed.frame.origin = posed.frame.rotation.transpose() * contact.centre;
   posed.frame.length = solid.diagonal();
-  posed.contact = scaled(contact.area, solid.diagonal());
-  posed.wall =
-      options.innerLowerBound.value_or(kDefaultWall * solid.diagonal()) / solid.diagonal() +
-      roundOff(posed.frame);
+  posed.contact = snappedArea(scaled(contact.area, solid.diagonal()));
+  posed.wall = snappedUp(options.innerLowerBound.value_or(kDefaultWall * solid.diagonal()) /
+                             solid.diagonal() +
+                         roundOff(posed.frame));
   if (options.pivot) {
     posed.pivot = toWorking(posed.frame, Points(options.pivot->transpose())).row(0).transpose();
     if (posed.pivot->norm() > kFarthestPivot) {

@@ -1,5 +1,6 @@
 #include "core/optimum/admissible_cells.h"
 
+#include "core/base/cube_cut.h"
 #include "core/base/parallel.h"
 #include "core/physics/moments.h"
 #include "core/query/point_in_mesh.h"
@@ -51,13 +52,12 @@ public:
         continue;
       }
       // The part of the cube behind the plane that is a wall away from the surface.
-      const double width = edge * part.inwards.cwiseAbs().sum();
-      const double share = std::clamp(0.5 + (part.depth - wall_) / width, 0.0, 1.0);
-      if (share == 0.0) continue;
+      const CubeCut cut = cubeCut(part.inwards, (wall_ - part.depth) / edge);
+      if (cut.volume <= 0.0) continue;
       if (part.cell != cell) result.emplace_back(Moments::Zero());
       cell = part.cell;
-      result.back() += cubeMoments(part.centre + 0.5 * width * (1.0 - share) * part.inwards, edge,
-                                   share * edge * edge * edge);
+      result.back() +=
+          cubeMoments(part.centre + edge * cut.centroid, edge, cut.volume * edge * edge * edge);
     }
     AdmissibleCells rows(static_cast<Eigen::Index>(result.size()), 10);
     for (std::size_t i = 0; i < result.size(); ++i) {

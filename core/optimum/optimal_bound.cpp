@@ -33,45 +33,6 @@ Share sharpShare(double t) {
   return {0.5 + t * (0.75 - 0.25 * t * t), 0.75 * (1.0 - t * t)};
 }
 
-double levelOf(const VerdictBounds& atZero) {
-  return -atZero.constraints.values.cwiseQuotient(atZero.slopes).maxCoeff();
-}
-
-/// For every bound alone the body that reaches the greatest level: at that level the bound's
-/// derivative is negative where the body is hollow (Dinkelbach's iteration, in which the level only
-/// grows). No body reaches more than the least of these levels, and the body of the bound that is
-/// met last reaches it where it keeps the other bounds.
-std::optional<Moments> bestVerdict(const Goal& goal, const Moments& solid, double fillDensity,
-                                   const AdmissibleCells& cells) {
-  constexpr int kMostSteps = 30;
-  const Eigen::Index rows = goal.verdictBounds(solid, 0.0).slopes.size();
-  std::optional<Moments> best;
-  double bestLevel = -std::numeric_limits<double>::infinity();
-  for (Eigen::Index r = 0; r < rows; ++r) {
-    Moments body = solid;
-    double level = -std::numeric_limits<double>::infinity();
-    for (int step = 0; step < kMostSteps; ++step) {
-      const VerdictBounds atZero = goal.verdictBounds(body, 0.0);
-      const double reached = -atZero.constraints.values[r] / atZero.slopes[r];
-      if (!(reached > level)) break;
-      level = reached;
-      if (levelOf(atZero) > bestLevel) {
-        bestLevel = levelOf(atZero);
-        best = body;
-      }
-      const Vector change =
-          (fillDensity - 1.0) *
-          (cells * goal.verdictBounds(body, level).constraints.gradients.row(r).transpose());
-      Moments cavity = Moments::Zero();
-      for (Eigen::Index c = 0; c < cells.rows(); ++c) {
-        if (change[c] < 0.0) cavity += cells.row(c).transpose();
-      }
-      body = solid + (fillDensity - 1.0) * cavity;
-    }
-  }
-  return best;
-}
-
 /// The terms of a quadric (or a plane, without inertia) over the cells, as functions of unit mean
 /// square that are orthogonal over the region: of one scale each.
 struct Functions {
@@ -174,18 +135,41 @@ private:
 
 } // namespace
 
+bool OptimalBound::isReachable() const {
+  const LevelBound* best = bestLevel();
+  return violation <= kReachable && (best == nullptr || best->reached >= wantedLevel - kReachable);
+}
+
+const LevelBound* OptimalBound::bestLevel() const {
+  const auto best =
+      std::max_element(levels.begin(), levels.end(), [](const LevelBound& a, const LevelBound& b) {
+        return a.reached < b.reached;
+      });
+  return best != levels.end() ? &*best : nullptr;
+}
+
 OptimalBound optimalBound(const Goal& goal, const Weights& weights, const Moments& solid,
                           double fillDensity, const AdmissibleCells& cells) {
-  const HollowBodies bodies(goal, weights, solid, fillDensity, cells);
-  const Vector q = bodies.best().x;
   OptimalBound bound;
-  bound.massMoments = bodies.massMoments(q);
-  bound.objective = bodies.objective(q);
-  bound.violation = largestViolation(goal, bound.massMoments);
-  bound.quadric = bodies.quadric(q);
-  if (bound.violation > OptimalBound::kReachable) {
-    bound.bestVerdict = bestVerdict(goal, solid, fillDensity, cells);
+  for (const LinearConditions& conditions : goal.conditions()) {
+    bound.levels.push_back(greatestLevel(conditions, solid, fillDensity, cells));
   }
+  bound.wantedLevel = goal.wantedLevel();
+  const bool isLevel = goal.measure(solid).has_value() && weights.volume == 0.0;
+  if (isLevel && !bound.levels.empty()) {
+    const LevelBound& best = *bound.bestLevel();
+    bound.massMoments = best.body;
+    bound.quadric = (1.0 - fillDensity) * best.functional.head<10>();
+    bound.objective = goal.objective(best.body).value;
+    bound.measure = goal.measure(best.body);
+  } else {
+    const HollowBodies bodies(goal, weights, solid, fillDensity, cells);
+    const Vector q = bodies.best().x;
+    bound.massMoments = bodies.massMoments(q);
+    bound.objective = bodies.objective(q);
+    bound.quadric = bodies.quadric(q);
+  }
+  bound.violation = largestViolation(goal, bound.massMoments);
   return bound;
 }
 

@@ -4,8 +4,10 @@
 #include "core/base/options.h"
 #include "core/goals/goal.h"
 #include "core/optimum/admissible_cells.h"
+#include "core/optimum/level_bound.h"
 
 #include <optional>
+#include <vector>
 
 namespace massprops {
 
@@ -20,10 +22,18 @@ struct OptimalBound {
   double objective = 0.0; ///< terms 1, 2, 3 and 5
   double violation =
       0.0; ///< largest of the goal's constraints; > 0: no cavity was found to hold all
-  /// Where the constraints cannot be kept and the verdict is one number: the body with the best.
-  std::optional<Moments> bestVerdict;
+  /// Of this body, where the goal's measure is all that counts.
+  std::optional<double> measure;
+  /// Of the goal's conditions, in their order; empty where they are not linear.
+  std::vector<LevelBound> levels;
+  double wantedLevel = 0.0; ///< of the goal
   /// (1, x, y, z, xx, yy, zz, xy, yz, zx)·quadric > 0 where the body is hollow.
   Moments quadric = Moments::Zero();
+
+  /// Whether the best body that was found does what the goal asks for.
+  bool isReachable() const;
+  /// Of the levels the one whose body is best; null without levels.
+  const LevelBound* bestLevel() const;
 };
 
 /// The best hollow body within the cells, of which there must be one. `solid`: moments of the body

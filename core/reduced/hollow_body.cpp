@@ -15,6 +15,7 @@ Body inputBody(const CavityTask& task) {
   body.momentObjective = momentObjective(task.goal, task.weights, body.mass, share);
   body.objective = body.momentObjective;
   body.violation = largestViolation(task.goal, body.mass);
+  body.measure = task.goal.measure(body.mass);
   return body;
 }
 
@@ -31,6 +32,7 @@ Body hollowBody(const CavityTask& task, const CavityResult& cavity) {
   body.objective = body.momentObjective + offsetObjective(*task.model.surface, task.weights,
                                                           cavity.innerOffsets, cavity.outerOffsets);
   body.violation = largestViolation(goal, body.mass);
+  body.measure = goal.measure(body.mass);
   return body;
 }
 
@@ -39,6 +41,9 @@ bool servesBetter(const CavityTask& task, const Body& a, const Body& b) {
   if (constrained && std::max(a.violation, b.violation) > kFeasibility) {
     return a.violation < b.violation;
   }
+  const Weights& w = task.weights;
+  const bool isMeasureAlone = w.volume == 0.0 && w.smoothness == 0.0 && w.outer == 0.0;
+  if (isMeasureAlone && a.measure && b.measure) return *a.measure > *b.measure;
   return a.objective < b.objective;
 }
 
@@ -52,6 +57,9 @@ double gapToBound(const OptimalBound& bound, const Body& before, const Body& aft
   const auto gap = [](double ours, double best, double solid) {
     return solid > best ? std::max(0.0, ours - best) / (solid - best) : 0.0;
   };
+  if (bound.measure && before.measure && after.measure) {
+    return gap(-*after.measure, -*bound.measure, -*before.measure);
+  }
   const bool comparable = std::max(after.violation, bound.violation) <= kFeasibility &&
                           before.momentObjective > bound.objective;
   return comparable ? gap(after.momentObjective, bound.objective, before.momentObjective)

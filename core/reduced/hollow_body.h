@@ -13,7 +13,8 @@ struct Body {
   /// All terms, and without the smoothness of the offsets and the outer surface's displacement,
   /// which bodies without offsets do not have.
   double objective = 0.0, momentObjective = 0.0;
-  double violation = 0.0; ///< largest of the goal's constraints
+  double violation = 0.0;        ///< largest of the goal's constraints
+  std::optional<double> measure; ///< `Goal::measure`
 };
 
 /// The model as it came in, existing cavities and all.
@@ -22,15 +23,16 @@ Body inputBody(const CavityTask& task);
 /// With the cavity that was found. \pre its status is Found or NoGain
 Body hollowBody(const CavityTask& task, const CavityResult& cavity);
 
-/// Whether the first violates the constraints less or, where both keep them, has the lower
-/// objective.
+/// Whether the first violates the constraints less or, where both keep them, has the greater
+/// measure or, where that is not all that counts, the lower objective.
 bool servesBetter(const CavityTask& task, const Body& a, const Body& b);
 
 /// The same for cavities; none is worse than any.
 bool servesBetter(const CavityTask& task, const CavityResult& a, const CavityResult& b);
 
-/// Share of what a cavity could gain that is not gained, 0 for the best possible: in the objective
-/// where it can be compared, else in the violation of the constraints. The bound knows nothing of
+/// Share of what a cavity could gain that is not gained, 0 for the best possible: in the verdict
+/// where that is one number, else in the objective where it can be compared, else in the violation
+/// of the constraints. The bound knows nothing of
 /// smoothness, so that term is left out on both sides.
 double gapToBound(const OptimalBound& bound, const Body& before, const Body& after);
 

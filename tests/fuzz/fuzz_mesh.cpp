@@ -221,6 +221,7 @@ Options someOptions(Bytes& bytes, double diagonal) {
   if ((flags & 1) != 0) options.radiusX = options.radiusY = 0.2 * diagonal;
   if ((flags & 6) == 6) options.outerUpperBound = 0.1 * bytes.share() * diagonal;
   if ((flags & 8) != 0) options.fillDensity = 3.0 * bytes.share();
+  if ((flags & 24) == 24) options.tippingAngle = 40.0 * bytes.share();
   if ((flags & 16) != 0) options.weights.volume = bytes.share();
   if ((flags & 32) != 0) {
     options.representable = [](const Points& points) {

@@ -545,7 +545,9 @@ PropertyCase makeCase(std::uint32_t seed, int number) {
   c.wall = diagonal * chance.logBetween(0.003, 0.08);
   o.innerLowerBound = c.wall;
   if (chance.oneIn(3)) o.innerUpperBound = chance.between(0.3, 1.0);
-  const bool stands = o.goal == GoalKind::Stand || o.goal == GoalKind::StandEmptyAndFilled;
+  const bool stands = o.goal == GoalKind::Stand || o.goal == GoalKind::PublishedStand ||
+                      o.goal == GoalKind::StandEmptyAndFilled;
+  if (o.goal == GoalKind::Stand && chance.oneIn(2)) o.tippingAngle = chance.between(0.5, 40.0);
   if (stands || o.goal == GoalKind::RollUpright) {
     // Without a flat foot the radii are needed; with one they may be given.
     if ((stands && !hasFoot(c.body, up)) || chance.oneIn(4)) {
@@ -585,6 +587,7 @@ PropertyCase makeCase(std::uint32_t seed, int number) {
   if (o.goal == GoalKind::Float) {
     text << " water " << o.waterLevel << " of density " << o.waterDensity / o.density;
   }
+  if (o.tippingAngle > 0.0) text << " tipping angle " << o.tippingAngle;
   if (o.goal == GoalKind::Mass) text << " target " << o.targetMass;
   if (o.pivot) text << " pivot";
   if (o.weights.volume > 0.0) text << " volume weight " << o.weights.volume;

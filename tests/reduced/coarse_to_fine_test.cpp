@@ -1,8 +1,8 @@
 // Beginning on a coarse stand-in leads to a minimum of the cavity itself.
 #include "core/reduced/coarse_to_fine.h"
 
+#include "core/goals/published_stand.h"
 #include "core/goals/spin.h"
-#include "core/goals/stand.h"
 #include "core/physics/moments.h"
 #include "core/reduced/laplacian.h"
 #include "shapes.h"
@@ -61,7 +61,8 @@ TEST_P(CoarseToFine, ReachesTheMinimumOfTheCavityItself) {
   const auto goal =
       GetParam() == GoalKind::Spin
           ? makeSpinGoal(model.solidMoments, weights)
-          : makeStandGoal({{{-0.1, -0.1}, {0.02, -0.1}, {0.02, 0.1}, {-0.1, 0.1}}, {}}, weights);
+          : makePublishedStandGoal({{{-0.1, -0.1}, {0.02, -0.1}, {0.02, 0.1}, {-0.1, 0.1}}, {}},
+                                   1.0, weights);
   const Vector start = coefficientsFor(model, 0.5 * (model.inner.lower + model.inner.upper), {});
   const MinimizeOptions options;
   const auto exact = [&](const Vector& x) { return evaluate(model, *goal, weights, x); };

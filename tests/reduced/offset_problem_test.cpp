@@ -1,8 +1,8 @@
 // The whole optimisation problem: from the coefficients to every term, with its gradient.
 #include "core/reduced/offset_problem.h"
 
+#include "core/goals/published_stand.h"
 #include "core/goals/spin.h"
-#include "core/goals/stand.h"
 #include "judge/checks.h"
 #include "shapes.h"
 
@@ -79,7 +79,8 @@ std::unique_ptr<Goal> makeGoal(GoalKind kind, const Weights& weights) {
   const Scene& s = scene();
   if (kind == GoalKind::Spin) return makeSpinGoal(moments(s.mesh.vertices, s.mesh.faces), weights);
   // Narrow and off the middle, so that some constraints are violated.
-  return makeStandGoal({{{-0.1, -0.1}, {0.02, -0.1}, {0.02, 0.1}, {-0.1, 0.1}}, {}}, weights);
+  return makePublishedStandGoal({{{-0.1, -0.1}, {0.02, -0.1}, {0.02, 0.1}, {-0.1, 0.1}}, {}}, 1.0,
+                                weights);
 }
 
 struct Variant {

@@ -1,0 +1,151 @@
+// Proofs that no cavity can do what is asked for, against closed forms.
+#include "core/optimum/certificate.h"
+
+#include "core/base/angles.h"
+#include "core/base/cube_cut.h"
+#include "core/goals/mass.h"
+#include "core/goals/registry.h"
+#include "core/goals/stand.h"
+#include "core/model/posed_model.h"
+#include "core/model/solid.h"
+#include "core/optimum/optimal_bound.h"
+#include "core/physics/moments.h"
+#include "samples.h"
+#include "shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace massprops::testing {
+namespace {
+
+TEST(CubeCut, IsExactWhereAPlaneCutsOffACorner) {
+  const Vec3 diagonal = Vec3::Ones().normalized();
+  // x + y + z ≥ 1 of [0, 1]³ is all but a sixth; about the middle the plane is half an edge off.
+  const CubeCut most = cubeCut(diagonal, (1.0 - 1.5) / std::sqrt(3.0));
+  EXPECT_NEAR(most.volume, 5.0 / 6.0, 1e-14);
+  // The corner's centroid is a quarter of an edge from the corner: (1/2 − 1/24)/(5/6) of [0, 1].
+  EXPECT_NEAR(most.centroid.x(), (0.5 - 1.0 / 24.0) / (5.0 / 6.0) - 0.5, 1e-14);
+  EXPECT_NEAR(cubeCut(diagonal, 0.0).volume, 0.5, 1e-14);
+  const double quarter = 0.25 * 3.0 / std::sqrt(3.0); // a quarter of the width off the middle
+  EXPECT_NEAR(cubeCut(diagonal, -quarter).volume, 1.0 - std::pow(0.75, 3) / 6.0, 1e-14); // 0.929…
+}
+
+TEST(CubeCut, AgreesWithSamples) {
+  Random random(3);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Vec3 normal = Vec3(random(), random(), random()).normalized();
+    const double depth = 0.6 * random();
+    int hits = 0;
+    Vec3 sum = Vec3::Zero();
+    constexpr int kAlong = 60;
+    for (int i = 0; i < kAlong * kAlong * kAlong; ++i) {
+      const Vec3 x(((i % kAlong) + 0.5) / kAlong - 0.5,
+                   ((i / kAlong % kAlong) + 0.5) / kAlong - 0.5,
+                   ((i / kAlong / kAlong) + 0.5) / kAlong - 0.5);
+      if (normal.dot(x) < depth) continue;
+      ++hits;
+      sum += x;
+    }
+    const CubeCut cut = cubeCut(normal, depth);
+    const double volume = hits / std::pow(kAlong, 3);
+    // Cells are in or out by their middles, normals are turned by up to 0.6°.
+    EXPECT_NEAR(cut.volume, volume, 0.012) << normal.transpose() << ", " << depth;
+    if (hits == 0) continue;
+    EXPECT_LT((cut.volume * cut.centroid - volume * sum / hits).norm(), 0.012);
+  }
+}
+
+/// Of 1 along each side, its foot on the ground.
+TriangleMesh standingCube() {
+  return transformed(box({1, 1, 1}, 6), Mat3::Identity(), Vec3(0, 0, 0.5));
+}
+
+TEST(PositivePartBound, IsCloseAboveTheIntegral) {
+  const TriangleMesh cube = standingCube();
+  const TriangleTree surface(cube.vertices, cube.faces);
+  const double wall = 0.1;
+  // What may be hollow is the cube of 0.8; of 1 the integral is its volume, of z − 1/2 that of its
+  // upper half: 0.8² 0.4²/2.
+  Moments one = Moments::Zero();
+  one[0] = 1.0;
+  Moments upper = Moments::Zero();
+  upper[0] = -0.5;
+  upper[3] = 1.0;
+  // x² − z² about the middle is positive where |x| > |z|: 0.8 · 4 ∫∫ (x² − z²) dz dx over a
+  // quarter.
+  Moments saddle = Moments::Zero();
+  saddle[0] = -0.25;
+  saddle[3] = 1.0;
+  saddle[4] = 1.0;
+  saddle[6] = -1.0;
+  const double ofSaddle = 0.8 * 2.0 / 3.0 * std::pow(0.4, 4);
+  for (const auto& [quadric, exact] :
+       {std::pair(one, 0.512), std::pair(upper, 0.64 * 0.08), std::pair(saddle, ofSaddle)}) {
+    const double bound = positivePartBound(quadric, surface, wall, 1.01 * exact);
+    EXPECT_GE(bound, exact);
+    EXPECT_LE(bound, 1.01 * exact);
+  }
+}
+
+class Proof : public ::testing::Test {
+protected:
+  Proof()
+      : mesh_(sampleMesh("leaning_egg")), posed_(makePosedModel(makeSolid(mesh_), {})),
+        surface_(posed_.vertices, posed_.faces), solid_(moments(posed_.vertices, posed_.faces)),
+        conditions_(makeStandGoal(posed_.contact, {})->conditions().front()),
+        bound_(greatestLevel(conditions_, solid_, 0.0, admissibleCells(surface_, posed_.wall))) {}
+
+  std::optional<Certificate> prove(double angle) const {
+    return certificate(conditions_, std::tan(angle / kDegrees), bound_, solid_, 0.0, surface_,
+                       posed_.wall);
+  }
+  double best() const { return std::atan(bound_.reached) * kDegrees; }
+
+  TriangleMesh mesh_;
+  PosedModel posed_;
+  TriangleTree surface_;
+  Moments solid_;
+  LinearConditions conditions_;
+  LevelBound bound_;
+};
+
+TEST_F(Proof, IsFoundWhereTheBestFailsByAFifthOfADegree) {
+  const auto proof = prove(best() + 0.2);
+  ASSERT_TRUE(proof);
+  EXPECT_GT(proof->margin, 0.0);
+  EXPECT_GE(proof->multipliers.minCoeff(), 0.0);
+  // The functional is the sum of the conditions, and positive for solid and best body.
+  EXPECT_LT((proof->rows.transpose() * proof->multipliers - proof->functional).norm(), 1e-12);
+  for (const Moments& body : {solid_, bound_.body}) {
+    EXPECT_GE(proof->functional.head<10>().dot(body) + proof->functional[10], 0.9 * proof->margin);
+  }
+}
+
+TEST_F(Proof, IsNotFoundForWhatABodyReaches) {
+  EXPECT_FALSE(prove(best() - 0.01));
+}
+
+TEST_F(Proof, BoundsTheBestBodyCloselyByDuality) {
+  EXPECT_NEAR(std::atan(bound_.level) * kDegrees, best(), 0.02);
+  EXPECT_GE(bound_.level, bound_.reached);
+}
+
+TEST(Certificate, IsOnlyFoundForMassesBelowTheLeast) {
+  const TriangleMesh cube = standingCube();
+  const TriangleTree surface(cube.vertices, cube.faces);
+  const Moments solid = moments(cube.vertices, cube.faces);
+  const double least = 1.0 - std::pow(0.8, 3);
+  for (const double excess : {-0.005, 0.005}) {
+    const auto goal = makeMassGoal(1.0, least + excess, {});
+    const LinearConditions conditions = goal->conditions().front();
+    const LevelBound bound = greatestLevel(conditions, solid, 0.0, admissibleCells(surface, 0.1));
+    EXPECT_EQ(certificate(conditions, 0.0, bound, solid, 0.0, surface, 0.1).has_value(),
+              excess < 0.0);
+  }
+}
+
+} // namespace
+} // namespace massprops::testing
