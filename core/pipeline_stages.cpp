@@ -95,6 +95,20 @@ bool keepsConstraints(const CavityTask& task, const CavityResult& cavity) {
   return cavity.status == CavityStatus::Found && hollowBody(task, cavity).violation <= kFeasibility;
 }
 
+/// Of an answer that serves the goal.
+void findPrintMargins(const Preparation& model, Search& found) {
+  // Two perimeters, as slicers print them by default with a nozzle of 0.4 mm.
+  constexpr double kPerimeters = 0.9;
+  if (model.posed.open || !keepsConstraints(found.task, found.cavity) ||
+      !found.verdictAfter->isReached(hollowBody(found.task, found.cavity).mass)) {
+    return;
+  }
+  const Stopwatch time;
+  found.margins = printMargins(found.task, found.cavity, *found.verdictAfter,
+                               kPerimeters / model.posed.frame.length);
+  found.secondsMargins = time.seconds();
+}
+
 /// Where not even the bound's body does what the goal asks for.
 void proveOutOfReach(const Preparation& model, const Options& options, Search& found) {
   if (!found.task.bound || found.task.bound->isReachable()) return;
@@ -199,6 +213,7 @@ Search search(const Preparation& model, const Foundation& foundation, const Opti
   result.verdictBefore = makeVerdict(options, model.posed, model.posed.vertices);
   result.verdictAfter =
       makeVerdict(options, model.posed, isFound ? result.cavity.outer : model.posed.vertices);
+  findPrintMargins(model, result);
   proveOutOfReach(model, options, result);
   if (result.cavity.status != CavityStatus::NoRoom) return result;
 
@@ -241,6 +256,8 @@ Report report(const Preparation& model, const Foundation& foundation, const Sear
   stages.secondsBasis = coarse.secondsBasis;
   stages.secondsLimit = foundation.secondsBound;
   stages.secondsLargestWall = found.secondsLargestWall;
+  stages.margins = found.margins;
+  stages.secondsMargins = found.secondsMargins;
   stages.certificates = found.certificates;
   stages.secondsCertificate = found.secondsCertificate;
   return hollowingReport(model.posed, found.task, {*found.verdictBefore, *found.verdictAfter},

@@ -1,6 +1,7 @@
 // The stages of the story that pipeline.cpp tells.
 #pragma once
 
+#include "core/answer/print_margins.h"
 #include "core/base/options.h"
 #include "core/base/stopwatch.h"
 #include "core/goals/goal.h"
@@ -88,8 +89,9 @@ struct Search {
   std::unique_ptr<Verdict> verdictBefore = {}, verdictAfter = {};
   double largestWall = 0.0; ///< working length; when the wanted one leaves no room
   double secondsLargestWall = 0.0;
+  std::optional<PrintMargins> margins = {};   ///< where the goal is reached
   std::vector<Certificate> certificates = {}; ///< of all the goal's conditions, or none
-  double secondsCertificate = 0.0;
+  double secondsCertificate = 0.0, secondsMargins = 0.0;
 };
 
 /// The task refers to `model`, `foundation` and `options`, which must outlive it.

@@ -178,6 +178,11 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Ve
     addCertificates(posed.frame, stages, report);
   }
   report.add("print_as", std::string(kPrintAs));
+  if (stages.margins) {
+    report.add("infill_at_least", stages.margins->infill);
+    report.add("wall_error_at_most", stages.margins->wall * posed.frame.length);
+    report.add("residue_at_most", stages.margins->residue * options.density * unitVolume / 1000.0);
+  }
   report.add("min_wall", hasCavity ? cavity.inspection.leastWall * posed.frame.length : 0.0);
   report.add("cavity_components", hollow ? cavity.inspection.components : 0);
   if (cavity.status == CavityStatus::NoRoom) {
@@ -198,6 +203,7 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Ve
   report.add("seconds_limit", stages.secondsLimit);
   report.add("seconds_optimization", cavity.effort.secondsOptimization);
   report.add("seconds_inspection", cavity.effort.secondsInspection);
+  if (stages.margins) report.add("seconds_margins", stages.secondsMargins);
   return report;
 }
 

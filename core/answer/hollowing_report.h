@@ -1,6 +1,7 @@
 // The report on a finished search: solid before, delivered body after.
 #pragma once
 
+#include "core/answer/print_margins.h"
 #include "core/base/report.h"
 #include "core/goals/verdict.h"
 #include "core/model/posed_model.h"
@@ -8,6 +9,7 @@
 #include "core/optimum/certificate.h"
 #include "core/reduced/cavity_search.h"
 
+#include <optional>
 #include <vector>
 
 namespace massprops {
@@ -17,6 +19,7 @@ struct Stages {
   Repairs repairs;          ///< of the input
   int skeletonFailures = 0; ///< components on which the mean curvature flow failed
   double largestWall = 0.0; ///< working length; of use when there is no room for a cavity
+  std::optional<PrintMargins> margins; ///< where the goal is reached
   /// Of all the goal's conditions, where it is missed and that no cavity can reach it was proved.
   std::vector<Certificate> certificates;
   double secondsCheck = 0.0; ///< of the input, and making it ready
@@ -26,6 +29,7 @@ struct Stages {
   double secondsLimit = 0.0;
   double secondsLargestWall = 0.0; ///< looking for it
   double secondsCertificate = 0.0; ///< proving, or trying to
+  double secondsMargins = 0.0;     ///< how far the print may be off
 };
 
 /// A verdict may depend on the outer surface: of the model, and as it has become.

@@ -1,0 +1,127 @@
+#include "core/answer/print_margins.h"
+
+#include "core/base/triangle.h"
+#include "core/mesh/signed_volume.h"
+#include "core/optimum/admissible_cells.h"
+#include "core/physics/moments.h"
+#include "core/reduced/hollow_body.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+namespace massprops {
+namespace {
+
+/// The greatest deviation 0…most that holds with all smaller ones: steps, then bisections.
+double greatestDeviation(double most, const std::function<bool(double)>& holds) {
+  constexpr int kSteps = 20;
+  constexpr int kBisections = 7;
+  double good = 0.0;
+  double bad = most;
+  for (int step = 1; step <= kSteps; ++step) {
+    const double next = most * step / kSteps;
+    if (!holds(next)) {
+      bad = next;
+      break;
+    }
+    good = next;
+  }
+  for (int i = 0; i < kBisections && bad > good; ++i) {
+    const double middle = 0.5 * (good + bad);
+    (holds(middle) ? good : bad) = middle;
+  }
+  return good;
+}
+
+/// What a slicer prints as infill: moments of the material farther than the perimeters from its
+/// surfaces.
+Moments deepMaterial(const CavityTask& task, const CavityResult& cavity, double perimeters) {
+  const Faces& outer = task.surface.faces();
+  const Faces& inner = cavity.cavity.faces;
+  Points vertices(cavity.outer.rows() + cavity.inner.rows(), 3);
+  vertices << cavity.outer, cavity.inner;
+  Faces faces(outer.rows() + inner.rows(), 3);
+  Faces flipped = inner.array() + static_cast<int>(cavity.outer.rows());
+  flip(flipped);
+  faces << outer, flipped;
+  // Thin sheets between the perimeters of two surfaces ask for small cells.
+  constexpr int kCells = 200000;
+  const AdmissibleCells cells =
+      admissibleCells({vertices, faces, TriangleTree::Order::Any}, perimeters, kCells);
+  return cells.rows() > 0 ? Moments(cells.colwise().sum().transpose()) : Moments(Moments::Zero());
+}
+
+/// Unit normals of the cavity's vertices, away from the cavity; means of the faces' by their areas.
+Points vertexNormals(const Points& vertices, const Faces& faces) {
+  Points normals = Points::Zero(vertices.rows(), 3);
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    const Vec3 normal = areaNormal(vertices, faces, f);
+    for (const int v : faces.row(f)) normals.row(v) += normal.transpose();
+  }
+  return normals.rowwise().normalized();
+}
+
+/// Vertices of the cavity that lie farthest in directions all round: linear functionals, and with
+/// them the harm that a lump does, are greatest at one of these, up to the directions between.
+std::vector<Vec3> extremePoints(const CavityResult& cavity) {
+  std::vector<Vec3> points;
+  for (int i = -1; i <= 1; ++i) {
+    for (int j = -1; j <= 1; ++j) {
+      for (int k = -1; k <= 1; ++k) {
+        if (i == 0 && j == 0 && k == 0) continue;
+        const Vec3 direction = Vec3(i, j, k).normalized();
+        const int* const first = cavity.cavity.faces.data();
+        const int farthest =
+            *std::max_element(first, first + cavity.cavity.faces.size(), [&](int a, int b) {
+              return cavity.inner.row(a).dot(direction) < cavity.inner.row(b).dot(direction);
+            });
+        points.emplace_back(cavity.inner.row(farthest).transpose());
+      }
+    }
+  }
+  return points;
+}
+
+/// Of a lump of mass 1.
+Moments lumpAt(const Vec3& p) {
+  Moments m;
+  m << 1.0, p, p.cwiseAbs2(), p.x() * p.y(), p.y() * p.z(), p.z() * p.x();
+  return m;
+}
+
+} // namespace
+
+PrintMargins printMargins(const CavityTask& task, const CavityResult& cavity,
+                          const Verdict& verdict, double perimeters) {
+  const Moments body = hollowBody(task, cavity).mass;
+  const Faces& faces = cavity.cavity.faces;
+  PrintMargins margins;
+  const Moments deep = deepMaterial(task, cavity, perimeters);
+  margins.infill = 1.0 - greatestDeviation(1.0, [&](double missing) {
+                     return deep[0] == 0.0 || verdict.isReached(body - missing * deep);
+                   });
+  if (faces.rows() == 0) return margins;
+
+  const Moments inner = moments(cavity.inner, faces);
+  const double filled = 1.0 - task.model.fillDensity;
+  const Points normals = vertexNormals(cavity.inner, faces);
+  margins.wall = greatestDeviation(task.wall, [&](double error) {
+    const auto holds = [&](double displacement) {
+      const Moments displaced = moments(cavity.inner + displacement * normals, faces);
+      return verdict.isReached(body - filled * (displaced - inner));
+    };
+    return holds(error) && holds(-error);
+  });
+  margins.residue = inner[0];
+  for (const Vec3& place : extremePoints(cavity)) {
+    const auto holds = [&](double mass) {
+      return verdict.isReached(body + filled * mass * lumpAt(place));
+    };
+    if (!holds(margins.residue)) margins.residue = greatestDeviation(margins.residue, holds);
+  }
+  return margins;
+}
+
+} // namespace massprops
