@@ -170,7 +170,7 @@ class RefusalsTest(HostTest):
         self.refuse(cube(), "pivot lies", goal=hang, use_pivot="true", pivot_x=1e6)
 
     def test_entries_that_do_not_exist(self):
-        self.refuse(cube(), "'goal' is entry 8", goal=8)
+        self.refuse(cube(), "'goal' is entry 9", goal=9)
         self.refuse(cube(), "'up_axis' is entry -1", up_axis=-1)
 
 
