@@ -211,8 +211,11 @@ Search search(const Preparation& model, const Foundation& foundation, const Opti
   }
   const bool isFound = result.cavity.status == CavityStatus::Found;
   result.verdictBefore = makeVerdict(options, model.posed, model.posed.vertices);
+  const TriangleMesh cavity{result.cavity.inner, result.cavity.cavity.faces};
+  const bool isHollow = isFound && cavity.faces.rows() > 0;
   result.verdictAfter =
-      makeVerdict(options, model.posed, isFound ? result.cavity.outer : model.posed.vertices);
+      makeVerdict(options, model.posed, isFound ? result.cavity.outer : model.posed.vertices,
+                  isHollow ? &cavity : nullptr);
   findPrintMargins(model, result);
   proveOutOfReach(model, options, result);
   if (result.cavity.status != CavityStatus::NoRoom) return result;

@@ -87,7 +87,7 @@ std::vector<GoalEntry> allGoals() {
        },
        [](const In& in) {
          return makeStandEmptyAndFilledVerdict(in.posed.contact, moments(in.outer, in.posed.faces),
-                                               filling(in.options), unit(in));
+                                               filling(in.options), unit(in), in.cavity);
        }},
       {GoalKind::RollUpright, "Roll upright",
        "it comes back upright from every position, like a tumbler", 0,
@@ -157,8 +157,8 @@ std::unique_ptr<Goal> makeGoal(const Options& options, const PosedModel& posed,
 }
 
 std::unique_ptr<Verdict> makeVerdict(const Options& options, const PosedModel& posed,
-                                     const Points& outer) {
-  return goalEntry(options.goal).verdict({options, posed, outer});
+                                     const Points& outer, const TriangleMesh* cavity) {
+  return goalEntry(options.goal).verdict({options, posed, outer, cavity});
 }
 
 double fillingSeenBy(const Options& options) {

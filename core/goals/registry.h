@@ -17,6 +17,7 @@ struct GoalInputs {
   const Options& options;
   const PosedModel& posed;
   const Points& outer; ///< n×3, working frame; the model's own vertices unless they have moved
+  const TriangleMesh* cavity = nullptr; ///< outward, working frame; of a hollow body
 };
 
 struct GoalEntry {
@@ -46,7 +47,7 @@ std::unique_ptr<Goal> makeGoal(const Options& options, const PosedModel& posed,
 
 /// What is said about it.
 std::unique_ptr<Verdict> makeVerdict(const Options& options, const PosedModel& posed,
-                                     const Points& outer);
+                                     const Points& outer, const TriangleMesh* cavity = nullptr);
 
 /// Density of what the goal takes for the cavity's filling, as a multiple of the material's: 0 for
 /// Stand empty and filled, which adds the filling by itself.

@@ -1,10 +1,14 @@
 #include "core/goals/stand_empty_and_filled.h"
 
+#include "core/base/angles.h"
+#include "core/goals/filling_levels.h"
 #include "core/goals/stand.h"
 #include "core/goals/tipping.h"
 #include "core/model/contact.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -18,6 +22,7 @@ public:
   Moments filled(const Moments& empty) const {
     return (1.0 - density_) * empty + density_ * outer_;
   }
+  double density() const { return density_; }
   /// d(filled)/d(empty)
   double slope() const { return 1.0 - density_; }
   /// Functionals of the filled body as such of the empty one.
@@ -81,12 +86,23 @@ private:
 
 class StandEmptyAndFilledVerdict final : public Verdict {
 public:
-  StandEmptyAndFilledVerdict(ContactArea area, double lengthUnit, Filling filling)
+  StandEmptyAndFilledVerdict(ContactArea area, double lengthUnit, Filling filling,
+                             std::optional<FillingLevels> levels)
       : area_(std::move(area)), stand_(makeStandVerdict(area_, lengthUnit)),
-        filling_(std::move(filling)) {}
+        filling_(std::move(filling)), levels_(std::move(levels)) {}
 
   bool isReached(const Moments& massMoments) const override {
-    return stand_->isReached(massMoments) && stand_->isReached(filling_.filled(massMoments));
+    return stand_->isReached(massMoments) && stand_->isReached(filling_.filled(massMoments)) &&
+           (!levels_ || leastAngle(massMoments) > 0.0);
+  }
+
+  std::string whatIsMissed(const Moments& massMoments) const override {
+    const bool standsAtEnds =
+        stand_->isReached(massMoments) && stand_->isReached(filling_.filled(massMoments));
+    return standsAtEnds && levels_
+               ? "it may fall over while it is filled, its tipping angle being " +
+                     toString(leastAngle(massMoments)) + "\u00b0 at the worst level"
+               : worstViolation(massMoments);
   }
 
   std::string worstViolation(const Moments& massMoments) const override {
@@ -103,6 +119,12 @@ public:
                 Report& report) const override {
     stand_->describe(massMoments, "empty_" + suffix, report);
     stand_->describe(filling_.filled(massMoments), "filled_" + suffix, report);
+    if (!levels_) return;
+    report.add("tip_angle_filling_" + suffix, leastAngle(massMoments));
+    report.add("stands_filling_" + suffix, leastAngle(massMoments) > 0.0);
+    report.add("filled_as", levels_->cavities() == 1
+                                ? std::string("one cavity")
+                                : toString(levels_->cavities()) + " cavities, each by itself");
   }
 
   std::string draw(const Moments& before, const Moments& after,
@@ -111,9 +133,16 @@ public:
   }
 
 private:
+  /// Over all levels of the contents.
+  double leastAngle(const Moments& empty) const {
+    return std::atan(levels_->leastTangent(tippingDirections(area_), empty, filling_.density())) *
+           kDegrees;
+  }
+
   ContactArea area_;
   std::unique_ptr<Verdict> stand_;
   Filling filling_;
+  std::optional<FillingLevels> levels_; ///< of a body that has cavities
 };
 
 } // namespace
@@ -125,8 +154,12 @@ std::unique_ptr<Goal> makeStandEmptyAndFilledGoal(const ContactArea& area, const
 
 std::unique_ptr<Verdict> makeStandEmptyAndFilledVerdict(const ContactArea& area,
                                                         const Moments& outer, double filling,
-                                                        double lengthUnit) {
-  return std::make_unique<StandEmptyAndFilledVerdict>(area, lengthUnit, Filling(outer, filling));
+                                                        double lengthUnit,
+                                                        const TriangleMesh* cavity) {
+  std::optional<FillingLevels> levels;
+  if (cavity != nullptr) levels.emplace(cavity->vertices, cavity->faces);
+  return std::make_unique<StandEmptyAndFilledVerdict>(area, lengthUnit, Filling(outer, filling),
+                                                      std::move(levels));
 }
 
 } // namespace massprops

@@ -1,0 +1,71 @@
+#include "core/goals/filling_levels.h"
+
+#include "core/mesh/components.h"
+#include "core/physics/hydrostatics.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace massprops {
+
+FillingLevels::FillingLevels(const Points& vertices, const Faces& faces) {
+  constexpr int kCuts = 96;
+  for (const Submesh& own : componentMeshes(vertices, faces)) {
+    Part part;
+    part.vertices = own.mesh.vertices;
+    const double low = part.vertices.col(2).minCoeff();
+    const double high = part.vertices.col(2).maxCoeff();
+    part.cuts.push_back({low, 0.0, Vec3::Zero()});
+    for (int i = 1; i <= kCuts; ++i) {
+      const double height = low + (high - low) * i / kCuts;
+      const Displacement below = displacement(part.vertices, own.mesh.faces, Vec3::UnitZ(), height);
+      part.cuts.push_back({height, below.volume, below.volume * below.centre});
+    }
+    parts_.push_back(std::move(part));
+  }
+}
+
+double FillingLevels::worst(const Part& part, const TippingDirection& direction,
+                            double tangent) const {
+  const double farthest = (part.vertices.leftCols<2>() * direction.unit).maxCoeff();
+  double most = 0.0;
+  for (std::size_t i = 1; i < part.cuts.size(); ++i) {
+    const Cut& below = part.cuts[i - 1];
+    const Cut& above = part.cuts[i];
+    const auto valueOf = [&](const Cut& cut) {
+      return direction.unit.dot(cut.first.head<2>()) + tangent * cut.first.z() -
+             direction.extent * cut.volume;
+    };
+    const double height = tangent > 0.0 ? above.height : below.height;
+    const double between = (above.volume - below.volume) *
+                           std::max(0.0, farthest + tangent * height - direction.extent);
+    most = std::max({most, valueOf(below) + between, valueOf(above)});
+  }
+  return most;
+}
+
+double FillingLevels::leastTangent(const std::vector<TippingDirection>& directions,
+                                   const Moments& empty, double density) const {
+  double least = levelReached(standingConditions(directions), empty);
+  for (const TippingDirection& direction : directions) {
+    const auto stands = [&](double tangent) {
+      double sum = direction.unit.dot(empty.segment<2>(1)) + tangent * empty[3] -
+                   direction.extent * empty[0];
+      for (const Part& part : parts_) sum += density * worst(part, direction, tangent);
+      return sum <= 0.0;
+    };
+    if (stands(least)) continue;
+    // The sum grows with the tangent.
+    double low = least - 1.0;
+    while (!stands(low)) low -= 2.0 * (least - low);
+    constexpr int kBisections = 40;
+    for (int i = 0; i < kBisections; ++i) {
+      const double middle = 0.5 * (low + least);
+      (stands(middle) ? low : least) = middle;
+    }
+    least = low;
+  }
+  return least;
+}
+
+} // namespace massprops
