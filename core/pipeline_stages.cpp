@@ -248,7 +248,7 @@ Report report(const Preparation& model, const Foundation& foundation, const Sear
   const Coarsening& coarse = foundation.coarse;
   Stages stages;
   stages.repairs = model.solid.repairs();
-  stages.skeletonFailures = coarse.skeletonFailures;
+  stages.skeletonFailures = coarse.skeleton.failedComponents;
   stages.largestWall = found.largestWall;
   stages.secondsCheck = model.seconds + foundation.secondsCrossings;
   stages.secondsCopy = coarse.secondsCopy;
