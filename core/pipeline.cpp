@@ -23,7 +23,7 @@ Result run(const TriangleMesh& model, const Options& options, const Progress& pr
   // The surfaces in the model's own place, and everything measured on them.
   Result result = deliver(prepared, foundation, found, options, bar);
   result.report = report(prepared, foundation, found, options);
-  if (options.showAnswer) draw(prepared, found, bar, result);
+  if (options.showAnswer) draw(prepared, foundation, found, bar, result);
   result.report.add("seconds_total", total.seconds());
   bar.show(100, "Done");
   return result;

@@ -2,6 +2,7 @@
 
 #include "core/answer/delivery.h"
 #include "core/answer/hollowing_report.h"
+#include "core/answer/skeleton_marks.h"
 #include "core/base/parallel.h"
 #include "core/base/tolerances.h"
 #include "core/goals/registry.h"
@@ -251,7 +252,7 @@ Report report(const Preparation& model, const Foundation& foundation, const Sear
   const Coarsening& coarse = foundation.coarse;
   Stages stages;
   stages.repairs = model.solid.repairs();
-  stages.skeletonFailures = coarse.skeletonFailures;
+  stages.skeletonFailures = coarse.skeleton.failedComponents;
   stages.largestWall = found.largestWall;
   stages.secondsCheck = model.seconds + foundation.secondsCrossings;
   stages.secondsCopy = coarse.secondsCopy;
@@ -267,12 +268,20 @@ Report report(const Preparation& model, const Foundation& foundation, const Sear
                          found.cavity, options, stages);
 }
 
-void draw(const Preparation& model, const Search& found, ProgressBar& bar, Result& result) {
+void draw(const Preparation& model, const Foundation& foundation, const Search& found,
+          ProgressBar& bar, Result& result) {
   if (found.cavity.status != CavityStatus::Found) return;
   bar.show(97, "Picture of the answer");
   PictureResult drawn = pictureOf(model.posed, found.task, *found.verdictAfter, found.cavity);
   result.picture = std::move(drawn.picture);
-  if (!result.picture) result.report.add("picture", drawn.failure);
+  if (!result.picture) {
+    result.report.add("picture", drawn.failure);
+    return;
+  }
+  const Coarsening& coarse = foundation.coarse;
+  ColouredMesh& skeleton = result.picture->skeleton;
+  skeleton = skeletonMarks(coarse.moving->carrier.mesh, coarse.skeleton);
+  skeleton.mesh.vertices = toModel(model.posed.frame, skeleton.mesh.vertices);
 }
 
 } // namespace massprops

@@ -107,6 +107,7 @@ Report report(const Preparation& model, const Foundation& foundation, const Sear
               const Options& options);
 
 /// The picture, or a key of the report that says why there is none.
-void draw(const Preparation& model, const Search& found, ProgressBar& bar, Result& result);
+void draw(const Preparation& model, const Foundation& foundation, const Search& found,
+          ProgressBar& bar, Result& result);
 
 } // namespace massprops

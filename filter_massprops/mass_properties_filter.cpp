@@ -119,7 +119,8 @@ public:
     updateBoxAndNormals(*layer);
   }
 
-  void add(const ColouredMesh& surface, const std::string& what) {
+  /// `isAnswer`: whether the window shows it at once.
+  void add(const ColouredMesh& surface, const std::string& what, bool isAnswer = true) {
     if (surface.mesh.faces.rows() == 0) return;
     MeshModel* layer = append(surface.mesh, what);
     layer->updateDataMask(MeshModel::MM_VERTCOLOR);
@@ -129,7 +130,7 @@ public:
       ++colour;
     }
     updateBoxAndNormals(*layer);
-    pictures_.push_back(layer);
+    if (isAnswer) pictures_.push_back(layer);
   }
 
   void keep() {
@@ -359,6 +360,7 @@ ReturnedValues MassPropertiesFilter::optimize(MeshDocument& document,
   if (result.picture) {
     layers.add(result.picture->cutOpen, "cut open");
     layers.add(result.picture->marks, result.picture->marksName);
+    layers.add(result.picture->skeleton, "skeleton and correspondences", false);
   }
   const bool hasCavity = result.inner.faces.rows() > 0;
   if (hasCavity) layers.add(result.inner, kCavityLayer, result.innerWall);
@@ -375,7 +377,8 @@ ReturnedValues MassPropertiesFilter::optimize(MeshDocument& document,
     write(result.picture
               ? "Only the answer is shown now: the model cut open, and the centre of mass before "
                 "(red) and after (green). Before you flatten, hide these two layers and show the "
-                "outer and the inner one by a click on their eyes."
+                "outer and the inner one by a click on their eyes. A further layer, hidden, is the "
+                "skeleton."
               : "Only the cavity is shown now; Back-Face > Double lights it from outside. Before "
                 "you flatten or cut open (Ctrl and mouse wheel), show the outer layer by a click "
                 "on its eye.");

@@ -159,10 +159,11 @@ RichParameterList dialogParameters(double diagonal) {
                "Otherwise such a surface is refused."));
   list.addParam(RichBool("show_layers", defaults.showAnswer, "Show the answer (more layers)",
                          "Adds a layer with the model cut open along the vertical plane through "
-                         "its centre of mass, and one with the centre of mass before (red) and "
+                         "its centre of mass, one with the centre of mass before (red) and "
                          "after (green) and what it is judged by: contact area (Stand, Stand empty "
                          "and filled, Roll upright), axis (Spin, Yo-yo), waterline (Float) or "
-                         "plumb line (Hang)."));
+                         "plumb line (Hang), and one, hidden at first, with the skeleton and the "
+                         "points of it that the surface shrinks to."));
   return list;
 }
 

@@ -1,4 +1,4 @@
-// The answer as meshes: the body cut open, and what it is judged by.
+// The answer as meshes: the body cut open, what it is judged by, and the skeleton.
 #pragma once
 
 #include "core/mesh/annotations.h"
@@ -21,6 +21,8 @@ struct Picture {
   /// The centres of mass before and after, and what the goal draws.
   ColouredMesh marks;
   std::string marksName; ///< "centre of mass and contact area"
+  /// The model's mean curvature skeleton with correspondences (skeleton_marks.h).
+  ColouredMesh skeleton;
 };
 
 struct PictureResult {
@@ -29,7 +31,8 @@ struct PictureResult {
 };
 
 /// What cannot be drawn is no reason to lose the cavity: only std::bad_alloc is thrown.
-/// `verdict`: for the outer surface of the result. \pre the search found something
+/// Without the skeleton. `verdict`: for the outer surface of the result. \pre the search found
+/// something
 PictureResult pictureOf(const PosedModel& posed, const CavityTask& task, const Verdict& verdict,
                         const CavityResult& cavity);
 

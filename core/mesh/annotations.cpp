@@ -9,7 +9,8 @@ namespace {
 
 /// Of the diagonal.
 constexpr double kBallRadius = 0.015;
-constexpr double kPenRadius = 0.003;
+constexpr double kBroadPen = 0.003;
+constexpr double kFinePen = 0.0007;
 
 } // namespace
 
@@ -51,10 +52,10 @@ void Annotations::addBall(const Vec3& centre, Colour colour) {
   }
 }
 
-void Annotations::addLine(const Vec3& from, const Vec3& to, Colour colour) {
+void Annotations::addLine(const Vec3& from, const Vec3& to, Colour colour, Pen pen) {
   if (from == to) return;
   constexpr int kSides = 6;
-  const double radius = kPenRadius * box_.diagonal().norm();
+  const double radius = (pen == Pen::Broad ? kBroadPen : kFinePen) * box_.diagonal().norm();
   const Vec3 along = (to - from).normalized();
   const Vec3 u = along.unitOrthogonal();
   const Vec3 w = along.cross(u);

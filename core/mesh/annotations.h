@@ -24,6 +24,8 @@ struct ColouredMesh {
   std::vector<Colour> colours;
 };
 
+enum class Pen { Broad, Fine };
+
 /// Marks around a body, each a closed surface, outward oriented.
 class Annotations {
 public:
@@ -32,7 +34,7 @@ public:
 
   void addBall(const Vec3& centre, Colour colour);
   /// A thin prism; nothing where the ends coincide.
-  void addLine(const Vec3& from, const Vec3& to, Colour colour);
+  void addLine(const Vec3& from, const Vec3& to, Colour colour, Pen pen = Pen::Broad);
   /// Lines from each corner to the next, and from the last to the first.
   void addLoop(const std::vector<Vec3>& corners, Colour colour);
 

@@ -3,7 +3,6 @@
 #include "core/base/parallel.h"
 #include "core/base/stopwatch.h"
 #include "core/reduced/offset_field.h"
-#include "core/reduced/skeleton.h"
 
 #include <algorithm>
 #include <utility>
@@ -54,7 +53,6 @@ Coarsening coarsen(const PosedModel& posed, const CoarseningOptions& options,
   moving->mass = area / area.sum();
   SparseMatrix laplacian;
   Vector carrierArea; // that the carrier's vertices stand for on what moves
-  Skeleton skeleton;
   inParallel(
       [&] {
         const Stopwatch time;
@@ -68,13 +66,12 @@ Coarsening coarsen(const PosedModel& posed, const CoarseningOptions& options,
       },
       [&] {
         const Stopwatch time;
-        skeleton = meanCurvatureSkeleton(carrier.vertices, carrier.faces);
+        result.skeleton = meanCurvatureSkeleton(carrier.vertices, carrier.faces);
         result.secondsSkeleton = time.seconds();
       });
   if (options.isSmooth) moving->laplacian = cotanLaplacian(moving->vertices, moving->faces);
-  result.axis = moving->interpolation *
-                smoothedOverSurface(skeleton.points, laplacian, carrierArea, kDiffusionLength);
-  result.skeletonFailures = skeleton.failedComponents;
+  result.axis = moving->interpolation * smoothedOverSurface(result.skeleton.points, laplacian,
+                                                            carrierArea, kDiffusionLength);
   result.moving = std::move(moving);
   return result;
 }

@@ -7,6 +7,7 @@
 #include "core/model/posed_model.h"
 #include "core/reduced/harmonics.h"
 #include "core/reduced/laplacian.h"
+#include "core/reduced/skeleton.h"
 
 #include <functional>
 #include <memory>
@@ -45,7 +46,7 @@ struct Coarsening {
   std::vector<int> vertexOf;
   /// n×3: the skeleton point of every vertex of what moves, smoothed over the surface.
   Points axis;
-  int skeletonFailures = 0; ///< components on which the mean curvature flow failed
+  Skeleton skeleton; ///< of the carrier's vertices
   double secondsCopy = 0.0, secondsSkeleton = 0.0, secondsBasis = 0.0;
 };
 

@@ -152,12 +152,12 @@ double diagonalOf(const Points& vertices) {
 /// Of one component.
 /// \throw std::runtime_error or CGAL::Failure_exception when the flow does not come to an end or
 /// loses a vertex
-Points contractedPoints(const Points& vertices, const Faces& faces, std::size_t bytesPerVertex) {
+Skeleton contracted(const Points& vertices, const Faces& faces, std::size_t bytesPerVertex) {
   const ArenaScope arena(bytesPerVertex * static_cast<std::size_t>(vertices.rows()));
   poleAnswers = {};
   poleAnswers.poleCount = static_cast<std::size_t>(vertices.rows());
   const auto mesh = surfaceMesh<Mesh>(vertices, faces);
-  Skeletonization::Skeleton skeleton;
+  Skeletonization::Skeleton curves;
   {
     Skeletonization flow(mesh);
     flow.set_min_edge_length(kLeastEdge * diagonalOf(vertices));
@@ -165,19 +165,29 @@ Points contractedPoints(const Points& vertices, const Faces& faces, std::size_t 
     flow.set_quality_speed_tradeoff(kHold);
     flow.set_medially_centered_speed_tradeoff(kDrawnToAxis);
     flow.contract_until_convergence();
-    flow.convert_to_skeleton(skeleton);
+    flow.convert_to_skeleton(curves);
   }
-  Points points = Points::Constant(vertices.rows(), 3, std::numeric_limits<double>::quiet_NaN());
-  for (const auto node : CGAL::make_range(boost::vertices(skeleton))) {
-    const Kernel::Point_3& p = skeleton[node].point;
-    for (const auto vertex : skeleton[node].vertices) {
-      points.row(static_cast<Eigen::Index>(vertex)) << p.x(), p.y(), p.z();
+  Skeleton result;
+  result.points = Points::Constant(vertices.rows(), 3, std::numeric_limits<double>::quiet_NaN());
+  result.nodes.resize(static_cast<Eigen::Index>(boost::num_vertices(curves)), 3);
+  for (const auto node : CGAL::make_range(boost::vertices(curves))) {
+    const Kernel::Point_3& p = curves[node].point;
+    const Vec3 point(p.x(), p.y(), p.z());
+    result.nodes.row(static_cast<Eigen::Index>(node)) = point.transpose();
+    for (const auto vertex : curves[node].vertices) {
+      result.points.row(static_cast<Eigen::Index>(vertex)) = point.transpose();
     }
   }
-  if (!points.allFinite()) {
+  if (!result.points.allFinite()) {
     throw std::runtime_error("the mean curvature flow lost a vertex of this mesh");
   }
-  return points;
+  result.segments.resize(static_cast<Eigen::Index>(boost::num_edges(curves)), 2);
+  Eigen::Index row = 0;
+  for (const auto edge : CGAL::make_range(boost::edges(curves))) {
+    result.segments.row(row++) << static_cast<int>(boost::source(edge, curves)),
+        static_cast<int>(boost::target(edge, curves));
+  }
+  return result;
 }
 
 Points halfWayThrough(const Points& vertices, const Faces& faces) {
@@ -193,11 +203,12 @@ Points halfWayThrough(const Points& vertices, const Faces& faces) {
   return vertices + half.asDiagonal() * inward;
 }
 
-/// The skeleton points, or none where the flow fails. What else goes wrong, a lack of memory or a
-/// mistake of this file, is no failure of the flow and passes.
-std::optional<Points> contractedOrNone(const TriangleMesh& component, std::size_t bytesPerVertex) {
+/// The skeleton, or none where the flow fails. What else goes wrong, a lack of memory or a mistake
+/// of this file, is no failure of the flow and passes.
+std::optional<Skeleton> contractedOrNone(const TriangleMesh& component,
+                                         std::size_t bytesPerVertex) {
   try {
-    return contractedPoints(component.vertices, component.faces, bytesPerVertex);
+    return contracted(component.vertices, component.faces, bytesPerVertex);
   } catch (const std::runtime_error&) { // among them `ArenaUsedUp`
     return std::nullopt;
   } catch (const CGAL::Failure_exception&) {
@@ -205,22 +216,32 @@ std::optional<Points> contractedOrNone(const TriangleMesh& component, std::size_
   }
 }
 
+void append(Skeleton& whole, const Points& nodes, const Segments& segments) {
+  const Eigen::Index before = whole.nodes.rows();
+  whole.nodes.conservativeResize(before + nodes.rows(), 3);
+  whole.nodes.bottomRows(nodes.rows()) = nodes;
+  whole.segments.conservativeResize(whole.segments.rows() + segments.rows(), 2);
+  whole.segments.bottomRows(segments.rows()) = segments.array() + static_cast<int>(before);
+}
+
 } // namespace
 
 Skeleton meanCurvatureSkeleton(const Points& vertices, const Faces& faces,
                                std::size_t flowBytesPerVertex) {
-  Skeleton skeleton{Points(vertices.rows(), 3), 0};
+  Skeleton whole;
+  whole.points.resize(vertices.rows(), 3);
   for (const Submesh& part : componentMeshes(vertices, faces)) {
-    std::optional<Points> points = contractedOrNone(part.mesh, flowBytesPerVertex);
-    if (!points) {
-      points = halfWayThrough(part.mesh.vertices, part.mesh.faces);
-      ++skeleton.failedComponents;
+    std::optional<Skeleton> skeleton = contractedOrNone(part.mesh, flowBytesPerVertex);
+    if (!skeleton) {
+      skeleton = Skeleton{halfWayThrough(part.mesh.vertices, part.mesh.faces), {}, {}};
+      ++whole.failedComponents;
     }
     for (std::size_t i = 0; i < part.vertexOf.size(); ++i) {
-      skeleton.points.row(part.vertexOf[i]) = points->row(static_cast<Eigen::Index>(i));
+      whole.points.row(part.vertexOf[i]) = skeleton->points.row(static_cast<Eigen::Index>(i));
     }
+    append(whole, skeleton->nodes, skeleton->segments);
   }
-  return skeleton;
+  return whole;
 }
 
 } // namespace massprops

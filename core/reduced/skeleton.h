@@ -1,4 +1,4 @@
-// The mean curvature skeleton, as the point that every surface vertex shrinks to.
+// The mean curvature skeleton: curves, and the point of them that every surface vertex shrinks to.
 #pragma once
 
 #include "core/base/types.h"
@@ -7,9 +7,17 @@
 
 namespace massprops {
 
+/// One segment a row, indices into Points.
+using Segments = Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor>;
+
 struct Skeleton {
   /// n×3: row i is the skeleton point to which vertex i contracts.
   Points points;
+  /// m×3 points, the former among them, and the segments between them that are the skeleton's
+  /// curves: a tree for each component without handles. Of components on which the flow did not
+  /// fail.
+  Points nodes;
+  Segments segments;
   /// Components on which the flow failed; their points lie half-way through the body, against the
   /// vertex normal.
   int failedComponents = 0;

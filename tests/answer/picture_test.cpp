@@ -22,6 +22,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace massprops::testing {
@@ -248,6 +249,18 @@ TEST_P(EveryGoal, ShowsBothCentresOfMassAndWhatTheyAreJudgedBy) {
   EXPECT_LE(nearest(before, kBeforeColour), 0.0151 * diagonal);
   EXPECT_LE(nearest(after, kAfterColour), 0.0151 * diagonal);
   EXPECT_TRUE(isClosedAndOriented(marks.mesh));
+
+  // A skeleton within the model, and lines to it from the model's surface.
+  EXPECT_TRUE(isClosedAndOriented(picture.skeleton.mesh));
+  const Points& drawn = picture.skeleton.mesh.vertices;
+  const double pen = 0.003 * diagonal;
+  for (const auto& [drawnBound, bound] :
+       {std::pair(drawn.colwise().minCoeff().eval(), model.vertices.colwise().minCoeff().eval()),
+        std::pair((-drawn.colwise().maxCoeff()).eval(),
+                  (-model.vertices.colwise().maxCoeff()).eval())}) {
+    EXPECT_GT((drawnBound - bound).minCoeff(), -2.0 * pen);
+    EXPECT_LT((drawnBound - bound).maxCoeff(), 0.02 * diagonal); // the carrier's corners, spread
+  }
 
   // Half of the body in front of a plane through the centre of mass, with its cavity.
   EXPECT_TRUE(isClosedAndOriented(mergedAndCompacted(cutOpen.mesh).mesh));

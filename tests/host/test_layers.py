@@ -42,7 +42,7 @@ class LayersTest(HostTest):
                                  "modelinneroffsetsurface_out.ply"])
         self.assertEqual(bounds_a_volume(self.folder / names[1], self.folder / names[2]), "")
 
-    def test_the_answer_is_shown_by_two_layers_before_the_cavity(self):
+    def test_the_answer_is_shown_by_three_layers_before_the_cavity(self):
         script = changed_script(script_of("toy_dinosaur"), self.folder / "s.mlx",
                                 show_layers="true")
         mesh = shutil.copy(SAMPLES / "toy_dinosaur.ply", self.folder / "model.ply")
@@ -50,8 +50,11 @@ class LayersTest(HostTest):
         names = [name for name, _ in layers]
         self.assertEqual(names, ["model_out.ply", "modelcutopen_out.ply",
                                  "modelcentreofmassandcontactarea_out.ply",
+                                 "modelskeletonandcorrespondences_out.ply",
                                  "modelinneroffsetsurface_out.ply"])
-        outer, cut, marks, inner = (read_ply(self.folder / name) for name in names)
+        outer, cut, marks, skeleton, inner = (read_ply(self.folder / name) for name in names)
+        for _, matrix in layers[1:]:
+            np.testing.assert_array_equal(matrix, layers[0][1])
         size = np.linalg.norm(np.ptp(outer[0], axis=0))
         before, after = report["center_of_mass_before"], report["center_of_mass_after"]
 
@@ -78,6 +81,23 @@ class LayersTest(HostTest):
         hull = measure.contact_polygon(outer[0])
         for corner in hull:
             self.assertLess(np.linalg.norm(blue[:, :2] - corner, axis=1).min(), 0.004 * size)
+
+        # Lines from the model's surface, all over it, to curves inside of it.
+        red, _, blue = colours_of(self.folder / names[3]).T
+        curves, lines = skeleton[0][red > blue], skeleton[0][red < blue]
+        self.assertEqual(len(curves) + len(lines), len(skeleton[0]))
+        triangles = outer[0][outer[1]].transpose(1, 0, 2)
+        depth = np.array([measure.point_triangle_distances(np.broadcast_to(p, triangles[0].shape),
+                                                           *triangles).min() for p in curves[::97]])
+        self.assertGreater(np.median(depth), 0.03 * size)
+        # Of each line's twelve corners the first lie at the surface, the next at the skeleton.
+        starts, ends = lines[0::12], lines[1::12]
+        for start, end in list(zip(starts, ends))[::25]:
+            p = np.broadcast_to(start, triangles[0].shape)
+            self.assertLess(measure.point_triangle_distances(p, *triangles).min(), 0.001 * size)
+            self.assertLess(np.linalg.norm(curves - end, axis=1).min(), 0.004 * size)
+        for vertex in outer[0][::50]:
+            self.assertLess(np.linalg.norm(starts - vertex, axis=1).min(), 0.06 * size)
 
     def test_the_vertex_quality_is_the_wall_at_each_vertex(self):
         inner = self.folder / "inner.ply"
