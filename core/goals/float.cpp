@@ -2,6 +2,7 @@
 
 #include "core/base/angles.h"
 #include "core/base/symmetric_eigen.h"
+#include "core/physics/floating_pose.h"
 #include "core/physics/hydrostatics.h"
 
 #include <algorithm>
@@ -174,8 +175,8 @@ private:
   FloatingPose pose(const Moments& massMoments) const {
     if (!known_ || known_->first != massMoments) {
       const MassProperties body = massProperties(massMoments);
-      known_ = {massMoments,
-                floatingPose(outer_, faces_, body.centerOfMass, body.mass / waterDensity_)};
+      known_ = {massMoments, floatingPose(floatingBody(outer_, faces_, body.centerOfMass,
+                                                       body.mass / waterDensity_))};
     }
     return known_->second;
   }

@@ -1,4 +1,4 @@
-// What a body displaces, and how it lies in the water.
+// What a body displaces, held at some level in the water.
 #pragma once
 
 #include "core/base/types.h"
@@ -27,21 +27,5 @@ std::vector<std::pair<Vec3, Vec3>> levelLines(const Points& vertices, const Face
 
 /// The level at which the body displaces `volume`, between 0 and the body's own.
 double levelFor(const Points& vertices, const Faces& faces, const Vec3& up, double volume);
-
-/// Where a body comes to rest when it is set upright (+z) into the water.
-struct FloatingPose {
-  bool floats = false; ///< else it sinks, and all below is that of the sinking body
-  bool submerged = false;
-  Vec3 up = Vec3::UnitZ(); ///< of the water, in the body's frame
-  double draught = 0.0;    ///< of the lowest point below the water's surface
-  /// Least and greatest metacentric height over all axes; negative: unstable.
-  double leastMetacentricHeight = 0.0, greatestMetacentricHeight = 0.0;
-};
-
-/// `displaced`: volume of water as heavy as the body; `centre`: its centre of mass. Follows the
-/// potential energy down from the upright pose: an unstable equilibrium is left.
-/// docs/math.md "Floating pose"
-FloatingPose floatingPose(const Points& vertices, const Faces& faces, const Vec3& centre,
-                          double displaced);
 
 } // namespace massprops
