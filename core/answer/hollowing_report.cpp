@@ -84,6 +84,12 @@ std::string inDigits(const Vector& values) {
   return text.str();
 }
 
+/// What goes with a goal that is reached, after a space.
+std::string remark(const Verdict& verdict, const Moments& massMoments) {
+  const std::string words = verdict.isReached(massMoments) ? verdict.remark(massMoments) : "";
+  return words.empty() ? "" : " " + words;
+}
+
 /// In words, and as numbers for hosts that take no text from a filter.
 void addRepairs(const Repairs& repairs, Report& report) {
   report.add("repairs", repairs.describe());
@@ -156,7 +162,8 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Ve
   report.add("solved", after.violation <= kFeasibility && verdicts.after.isReached(after.mass));
   report.add("message",
              message(task, verdicts, cavity, before, after, stages.largestWall * posed.frame.length,
-                     !stages.certificates.empty()));
+                     !stages.certificates.empty()) +
+                 remark(verdicts.after, after.mass));
   report.add("objective_before", before.objective);
   report.add("objective_after", after.objective);
   report.add("max_constraint_violation", after.violation);

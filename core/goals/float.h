@@ -16,9 +16,10 @@ namespace massprops {
 std::unique_ptr<Goal> makeFloatGoal(const Points& outer, const Faces& faces, double waterLevel,
                                     double waterDensity, const Weights& weights);
 
-/// The pose in which the body really floats. \throw as the goal
+/// The pose in which the body really floats, all others, and how far it may heel. `rims`: points of
+/// openings, k×3, that must stay above the water. \throw as the goal
 std::unique_ptr<Verdict> makeFloatVerdict(const Points& outer, const Faces& faces,
-                                          double waterLevel, double waterDensity,
-                                          double lengthUnit);
+                                          double waterLevel, double waterDensity, double lengthUnit,
+                                          const Points& rims = Points(0, 3));
 
 } // namespace massprops

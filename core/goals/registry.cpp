@@ -51,6 +51,13 @@ Vec3 suspension(const GoalInputs& in) {
   return {ground.x(), -ground.y(), -ground.z()};
 }
 
+/// Of the openings of an open surface.
+Points rims(const GoalInputs& in) {
+  Points result(0, 3);
+  if (in.posed.open) result = in.outer(in.posed.open->rim, Eigen::all);
+  return result;
+}
+
 /// A working unit of mass in grams.
 double grams(const GoalInputs& in) {
   return in.options.density * std::pow(unit(in), 3) / 1000.0;
@@ -100,7 +107,7 @@ std::vector<GoalEntry> allGoals() {
        },
        [](const In& in) {
          return makeFloatVerdict(in.outer, in.posed.faces, in.options.waterLevel, waterDensity(in),
-                                 unit(in));
+                                 unit(in), rims(in));
        }},
       {GoalKind::Hang, "Hang", "it hangs upright from its topmost point or a given one", 2,
        [](const In& in) { return makeHangGoal(suspension(in), in.options.weights); },

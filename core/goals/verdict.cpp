@@ -6,6 +6,10 @@ std::string Verdict::whatIsMissed(const Moments& massMoments) const {
   return worstViolation(massMoments);
 }
 
+std::string Verdict::remark(const Moments& /*massMoments*/) const {
+  return "";
+}
+
 std::string Verdict::bestInWords(const Moments& massMoments) const {
   return "at best " + worstViolation(massMoments);
 }

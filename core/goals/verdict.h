@@ -24,6 +24,9 @@ public:
   /// when that is not `isReached`. Where the constraints are all that the verdict asks for, it is
   /// `worstViolation`.
   virtual std::string whatIsMissed(const Moments& massMoments) const;
+  /// What a person should know about a body that does what is asked for, in sentences; "" where
+  /// nothing is left to say.
+  virtual std::string remark(const Moments& massMoments) const;
   /// Adds the goal's own keys with `suffix` ("before", "after") to the report.
   virtual void describe(const Moments& massMoments, const std::string& suffix,
                         Report& report) const = 0;

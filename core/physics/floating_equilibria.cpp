@@ -1,5 +1,6 @@
 #include "core/physics/floating_equilibria.h"
 
+#include "core/base/angles.h"
 #include "core/base/parallel.h"
 #include "core/mesh/decimation.h"
 #include "core/physics/orientation_grid.h"
@@ -326,6 +327,19 @@ FloatingEquilibria floatingEquilibria(const FloatingBody& body, const FloatingBo
   result.upright = static_cast<Index>(
       std::find_if(result.rests.begin(), result.rests.end(), isHome) - result.rests.begin());
   return result;
+}
+
+bool isHeldWithin(const FloatingBody& copy, const Vec3& up, double heel, double barrier) {
+  constexpr int kDirections = 24;
+  const FloatingPose pose = floatingPose(copy, up);
+  const Horizontal axes = horizontal(pose.up);
+  for (int k = 0; k < kDirections; ++k) {
+    const double angle = 2.0 * kPi * k / kDirections;
+    const Vec3 towards = axes * Vec2(std::cos(angle), std::sin(angle));
+    const Vec3 heeled = std::cos(heel) * pose.up + std::sin(heel) * towards;
+    if (inclinedEnergy(copy, heeled) <= pose.energy + barrier) return false;
+  }
+  return true;
 }
 
 } // namespace massprops

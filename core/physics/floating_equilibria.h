@@ -35,4 +35,8 @@ struct FloatingEquilibria {
 FloatingEquilibria floatingEquilibria(const FloatingBody& body, const FloatingBody& copy,
                                       double barrier);
 
+/// Whether all orientations `heel` (radians) away from the pose next to `up` lie more than
+/// `barrier` above it, so that its family ends before: the answer in most cases, at little cost.
+bool isHeldWithin(const FloatingBody& copy, const Vec3& up, double heel, double barrier);
+
 } // namespace massprops
