@@ -117,6 +117,9 @@ RichParameterList dialogParameters(double diagonal) {
   addNumber("pivot_x", 0.0, "Pivot x [mm]", pivot);
   addNumber("pivot_y", 0.0, "Pivot y [mm]", pivot);
   addNumber("pivot_z", 0.0, "Pivot z [mm]", pivot);
+  addNumber("spin_speed", defaults.spinSpeed, "Spin speed (Spin) [rpm]",
+            "How fast a hand spins the top: it must stay upright at this speed and a little below. "
+            "Thumb and finger on a stem reach 1000, a string a multiple of it.");
   addNumber("water_level", defaults.waterLevel, "Waterline (Float)",
             "How deep it shall lie in the water, as a share of its height: above 0, and 1 is "
             "neutral under water.");
@@ -190,6 +193,7 @@ Options optionsFrom(const RichParameterList& parameters) {
     options.pivot = Vec3(number(parameters, "pivot_x"), number(parameters, "pivot_y"),
                          number(parameters, "pivot_z"));
   }
+  options.spinSpeed = number(parameters, "spin_speed");
   options.waterLevel = number(parameters, "water_level");
   options.waterDensity = number(parameters, "water_density");
   options.targetMass = number(parameters, "target_mass");

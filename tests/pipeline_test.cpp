@@ -72,6 +72,7 @@ Options stand() {
 Options spin() {
   Options options;
   options.goal = GoalKind::Spin;
+  options.spinSpeed = 1e4; // the tops are two or three millimetres high
   return options;
 }
 
@@ -334,6 +335,24 @@ TEST(Pipeline, MakesALeaningTopSpin) {
   EXPECT_GT(number(result, "axis_tilt_before"), 3.0);
   EXPECT_LT(number(result, "axis_tilt_after"), 0.1);
   EXPECT_TRUE(truth(result, "solved")) << text(result, "message");
+}
+
+TEST(Pipeline, DoesNotSayOfARodThatItSpins) {
+  // Balanced as well as can be, but it would need 285,000 rpm.
+  Options options;
+  options.goal = GoalKind::Spin;
+  const TriangleMesh rod = transformed(box({4, 4, 99}, 12), Mat3::Identity(), {0, 0, 49.5});
+  const Result result = optimizeMassProperties(rod, options);
+  EXPECT_NEAR(number(result, "sleeping_speed_before"), 285000, 1000);
+  for (const std::string state : {"_before", "_after"}) {
+    EXPECT_FALSE(truth(result, "spins" + state));
+    EXPECT_LT(number(result, "axis_tilt" + state), 0.01);
+    EXPECT_GT(number(result, "sleeping_speed" + state), 1e5);
+  }
+  EXPECT_FALSE(truth(result, "solved"));
+  EXPECT_NE(text(result, "message").find("it stays upright only above"), std::string::npos)
+      << text(result, "message");
+  EXPECT_EQ(text(result, "message").find("could reach it"), std::string::npos);
 }
 
 TEST(Pipeline, SpinsOnAPoint) {
@@ -804,6 +823,7 @@ TEST(Pipeline, EveryGoalIsReachedWithALightAndAHeavyFilling) {
       options.fillDensity = heavy ? 2.0 : 0.3;
       // Floating on its side, and weighing as much as nine tenths or five quarters of the solid do.
       if (options.goal == GoalKind::Float) options.upAxis = UpAxis::PlusY;
+      options.spinSpeed = 1e5;   // a top of 2 mm
       options.waterLevel = 0.85; // a square log half under water is unstable
       options.waterDensity = heavy ? 1.47 : 1.06;
       options.targetMass = (heavy ? 1.25 : 0.9) * quadratureMoments(model)[0] / 1000;
@@ -892,6 +912,8 @@ TEST(Pipeline, RefusesAbsurdParametersByName) {
       {with([](Options& o) { o.waterLevel = 0.0; }), "water_level"},
       {with([](Options& o) { o.waterLevel = 1.1; }), "water_level"},
       {with([&](Options& o) { o.waterDensity = nan; }), "water_density"},
+      {with([&](Options& o) { o.spinSpeed = 0.0; }), "spin_speed"},
+      {with([&](Options& o) { o.spinSpeed = nan; }), "spin_speed"},
       {with([](Options& o) { o.targetMass = -1.0; }), "target_mass"},
       {with([&](Options& o) { o.pivot = Vec3(nan, 0, 0); }), "pivot"},
       {with([](Options& o) { o.pivot = Vec3(0, 0, 1e3); }), "pivot"},

@@ -55,6 +55,8 @@ void requireSensible(const Options& options, Eigen::Index vertexCount, double di
           "cavity: 1 for water.");
   require(!options.pivot || options.pivot->allFinite(),
           "pivot_x, pivot_y and pivot_z must be coordinates of a point.");
+  require(finite(options.spinSpeed) && options.spinSpeed > 0.0,
+          "spin_speed must be greater than 0 rpm; thumb and finger reach 1000.");
   require(options.waterLevel > 0.0 && options.waterLevel <= 1.0,
           "water_level is a share of the model's height: give a value above 0 and at most 1 (under "
           "water).");

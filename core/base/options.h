@@ -58,6 +58,9 @@ struct Options {
   /// model coordinates. Empty: Spin takes the centre of the ground contact, Yo-yo the point above
   /// it at half the height, Hang the middle of the topmost vertices.
   std::optional<Vec3> pivot;
+  /// Spin: what a hand gives the top, rpm. Thumb and finger bring a stem to more than 1000 rpm
+  /// [SHR97]; a string to a multiple of that.
+  double spinSpeed = 1000.0;
   /// Float: how deep it shall lie in the water, as a share of its height; 1 is neutral, under
   /// water.
   double waterLevel = 0.5;

@@ -82,7 +82,9 @@ std::vector<GoalEntry> allGoals() {
        }},
       {GoalKind::Spin, "Spin", "it spins as a top about the vertical axis through its lowest point",
        4, [](const In& in) { return makeSpinGoal(solid(in), in.options.weights, spinAxis(in)); },
-       [](const In& in) { return makeSpinVerdict(solid(in), spinAxis(in), unit(in)); }},
+       [](const In& in) {
+         return makeSpinVerdict(solid(in), spinAxis(in), unit(in), in.options.spinSpeed);
+       }},
       {GoalKind::YoYo, "Yo-yo", "it spins about its vertical axle, balanced on both sides", 5,
        [](const In& in) { return makeYoYoGoal(solid(in), in.options.weights, middleOfAxle(in)); },
        [](const In& in) { return makeYoYoVerdict(solid(in), middleOfAxle(in), unit(in)); }},

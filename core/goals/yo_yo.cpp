@@ -1,7 +1,8 @@
 #include "core/goals/yo_yo.h"
 
-#include "core/goals/spin.h"
+#include "core/goals/spinning_axis.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -11,82 +12,104 @@ namespace {
 /// Verdict: a yo-yo whose centre is farther from the string's plane tilts, in diagonals.
 constexpr double kCentred = 1e-3;
 
-/// Spin without the height, and with the centre of mass in the middle of the axle.
 class YoYoGoal final : public Goal {
 public:
-  YoYoGoal(const Moments& solidMassMoments, Weights weights, const Vec3& pivot) : pivot_(pivot) {
-    weights.centerOfMass = 0.0;
-    spin_ = makeSpinGoal(solidMassMoments, weights, pivot.head<2>());
-  }
+  YoYoGoal(const Moments& solidMassMoments, const Weights& weights, Vec3 pivot)
+      : solidInertia_(massProperties(solidMassMoments).inertiaTensor(2, 2)),
+        weight_(weights.inertia), pivot_(std::move(pivot)) {}
 
   GoalValue objective(const Moments& massMoments) const override {
-    return spin_->objective(massMoments);
+    const GoalValue ratios = inertiaRatios(massMoments);
+    return {weight_ * ratios.value, weight_ * ratios.gradient};
   }
 
   GoalConstraints equalities(const Moments& massMoments) const override {
     const MassProperties body = massProperties(massMoments);
-    GoalConstraints h = spin_->equalities(massMoments);
-    const Eigen::Index last = h.values.size();
-    h.values.conservativeResize(last + 1);
-    h.gradients.conservativeResize(last + 1, 10);
-    h.values[last] = body.centerOfMass.z() - pivot_.z();
-    h.gradients.row(last) = massPropertyGradients(body).centerOfMass.row(2);
+    const GoalConstraints axis = axisConstraints(massMoments, pivot_.head<2>(), solidInertia_);
+    GoalConstraints h{Vector(5), MomentGradients(5, 10)};
+    h.values << axis.values, body.centerOfMass.z() - pivot_.z();
+    h.gradients << axis.gradients, massPropertyGradients(body).centerOfMass.row(2);
     return h;
   }
 
-  GoalConstraints inequalities(const Moments& /*massMoments*/) const override { return {}; }
+  GoalConstraints inequalities(const Moments& massMoments) const override {
+    return notTheMiddleMoment(massMoments, TurnsAbout::Centre, solidInertia_);
+  }
 
   bool usesInertia() const override { return true; }
 
 private:
-  std::unique_ptr<Goal> spin_;
+  double solidInertia_;
+  double weight_;
   Vec3 pivot_;
 };
 
 class YoYoVerdict final : public Verdict {
 public:
   YoYoVerdict(const Moments& solidMassMoments, const Vec3& pivot, double lengthUnit)
-      : goal_(solidMassMoments, {}, pivot),
-        spin_(makeSpinVerdict(solidMassMoments, pivot.head<2>(), lengthUnit)), pivot_(pivot),
-        lengthUnit_(lengthUnit) {}
+      : goal_(solidMassMoments, {}, pivot), pivot_(pivot), lengthUnit_(lengthUnit) {}
 
   bool isReached(const Moments& massMoments) const override {
-    return spin_->isReached(massMoments) && std::abs(offMiddle(massMoments)) < kCentred;
+    return spins(spinningAxis(massMoments, pivot_.head<2>())) &&
+           std::abs(offMiddle(massMoments)) < kCentred;
   }
 
   std::string worstViolation(const Moments& massMoments) const override {
+    const Eigen::Vector4d axis = goal_.equalities(massMoments).values.head<4>();
     const double along = std::abs(offMiddle(massMoments));
-    return along < largestViolation(goal_, massMoments)
-               ? axisViolation(goal_.equalities(massMoments).values.head<4>(), lengthUnit_)
+    const double between = goal_.inequalities(massMoments).values[0];
+    if (between > std::max(along, axis.cwiseAbs().maxCoeff())) {
+      return middleMoment(spinningAxis(massMoments, pivot_.head<2>()));
+    }
+    return along < axis.cwiseAbs().maxCoeff()
+               ? axisViolation(axis, lengthUnit_)
                : "the centre of mass lies " + toString(along * lengthUnit_) +
                      " off the middle of the axle";
   }
 
   std::string whatIsMissed(const Moments& massMoments) const override {
-    return spin_->whatIsMissed(massMoments);
+    const SpinningAxis axis = spinningAxis(massMoments, pivot_.head<2>());
+    if (!axis.isCentred()) return offAxis(axis.offset * lengthUnit_);
+    return isStable(axis) ? leaningAxis(axis.tilt) : middleMoment(axis);
   }
 
   void describe(const Moments& massMoments, const std::string& suffix,
                 Report& report) const override {
-    spin_->describe(massMoments, suffix, report);
+    const SpinningAxis axis = spinningAxis(massMoments, pivot_.head<2>());
+    axis.describe(lengthUnit_, suffix, report);
+    report.add("spins_" + suffix, spins(axis));
     report.add("middle_offset_" + suffix, offMiddle(massMoments) * lengthUnit_);
     report.add("sleeps_" + suffix, isReached(massMoments));
   }
 
   /// The axle, and its middle.
-  std::string draw(const Moments& before, const Moments& after,
+  std::string draw(const Moments& /*before*/, const Moments& /*after*/,
                    Annotations& annotations) const override {
     annotations.addBall(pivot_, kGroundColour);
-    return spin_->draw(before, after, annotations);
+    drawAxis(pivot_.head<2>(), annotations);
+    return "axis";
   }
 
 private:
+  static bool isStable(const SpinningAxis& axis) {
+    return std::min(axis.ratioA, axis.ratioB) > 1.0 || std::max(axis.ratioA, axis.ratioB) < 1.0;
+  }
+
+  static bool spins(const SpinningAxis& axis) {
+    return axis.isCentred() && axis.isUpright() && isStable(axis);
+  }
+
+  static std::string middleMoment(const SpinningAxis& axis) {
+    return "it has its middle moment of inertia about the axis, about which no body spins "
+           "steadily (I_zz/I_a = " +
+           toString(axis.ratioA) + ", I_zz/I_b = " + toString(axis.ratioB) + ")";
+  }
+
   double offMiddle(const Moments& massMoments) const {
     return massProperties(massMoments).centerOfMass.z() - pivot_.z();
   }
 
   YoYoGoal goal_;
-  std::unique_ptr<Verdict> spin_;
   Vec3 pivot_;
   double lengthUnit_;
 };

@@ -5,7 +5,6 @@
 #include "core/goals/hang.h"
 #include "core/goals/mass.h"
 #include "core/goals/published_stand.h"
-#include "core/goals/roll_upright.h"
 #include "core/goals/spin.h"
 #include "core/goals/stand.h"
 #include "core/goals/stand_empty_and_filled.h"
@@ -234,8 +233,12 @@ std::unique_ptr<Goal> spinGoal(const Moments& solid, const Weights& weights = kP
   return makeSpinGoal(solid, weights);
 }
 
+/// As fast as a machine spins it, lengths in metres: the tests' bodies are of order one.
+constexpr double kMetre = 1000.0;
+constexpr double kFast = 1e5;
+
 std::unique_ptr<Verdict> spinVerdict(const Moments& solid) {
-  return makeSpinVerdict(solid, Vec2::Zero(), 1.0);
+  return makeSpinVerdict(solid, Vec2::Zero(), kMetre, kFast);
 }
 
 TEST(SpinGoal, HasTheGradientsOfItsValues) {
@@ -276,9 +279,9 @@ TEST(SpinGoal, HasIndependentWeightsForCentreAndInertia) {
 }
 
 TEST(SpinGoal, DoesNotChangeWhenTheBodyIsTurnedAboutItsAxis) {
-  const Moments m = standingBox({1.0, 0.6, 0.3});
+  const Moments m = standingBox({1.0, 0.9, 0.1});
   const TriangleMesh turned =
-      transformed(transformed(box({1.0, 0.6, 0.3}, 1), Mat3::Identity(), {0, 0, 0.25}),
+      transformed(transformed(box({1.0, 0.9, 0.1}, 1), Mat3::Identity(), {0, 0, 0.15}),
                   rotation(Vec3::UnitZ(), 0.7));
   EXPECT_NEAR(spinGoal(m)->objective(momentsOf(turned)).value, spinGoal(m)->objective(m).value,
               1e-12);
@@ -300,7 +303,7 @@ TEST(SpinGoal, InertiaTermIsNeverBelowOneHalf) {
 }
 
 TEST(SpinGoal, HasNoViolationExactlyWhenTheAxisIsPrincipalAndCarriesTheCentre) {
-  const Moments upright = standingBox({1.0, 0.8, 0.3});
+  const Moments upright = standingBox({1.0, 0.8, 0.2});
   EXPECT_LT(largestViolation(*spinGoal(upright), upright), 1e-12);
   // Off the axis, and leaning about a horizontal axis through its own centre.
   EXPECT_NEAR(largestViolation(*spinGoal(upright), translated(upright, {0.07, 0, 0})), 0.07, 1e-12);
@@ -315,7 +318,7 @@ TEST(SpinGoal, ReportsOffsetTiltAndRatios) {
   const TriangleMesh leaning = transformed(transformed(box(s, 1), rotation({1, 0, 0}, 0.2)),
                                            Mat3::Identity(), {0.03, -0.04, 0.5});
   const Moments solid = momentsOf(leaning);
-  const Report report = described(*makeSpinVerdict(solid, Vec2::Zero(), 200.0), solid);
+  const Report report = described(*makeSpinVerdict(solid, Vec2::Zero(), 200.0, kFast), solid);
   EXPECT_NEAR(number(report, "axis_offset_after"), 0.05 * 200.0, 1e-9);
   EXPECT_NEAR(number(report, "axis_tilt_after"), 0.2 * 180 / std::acos(-1.0), 1e-9);
 
@@ -328,24 +331,77 @@ TEST(SpinGoal, ReportsOffsetTiltAndRatios) {
               1e-9);
 }
 
-TEST(SpinGoal, IsReachedAboutTheLargestAndTheSmallestMomentButNotTheMiddleOne) {
-  for (const auto& [size, spins] : std::vector<std::pair<Vec3, bool>>{
-           {{1.0, 0.8, 0.3}, true}, {{0.3, 0.4, 1.0}, true}, {{1.0, 0.3, 0.6}, false}}) {
-    const Moments m = standingBox(size);
-    EXPECT_EQ(spinVerdict(m)->isReached(m), spins) << size.transpose();
+/// A box whose centre is `height` above the ground, the tip.
+Moments boxOnTip(const Vec3& size, double height) {
+  return momentsOf(transformed(box(size, 1), Mat3::Identity(), {0, 0, height}));
+}
+
+TEST(SpinGoal, IsReachedAboutTheLargestAndTheSmallestMomentOnTheTipButNotTheMiddleOne) {
+  // About the centre the third one has its middle moment upright; on a tip below it is the least.
+  struct Case {
+    Vec3 size;
+    double height;
+    bool spins;
+  };
+  for (const Case& c : {Case{{1.0, 0.8, 0.3}, 0.16, true}, Case{{0.3, 0.4, 1.0}, 0.6, true},
+                        Case{{1.0, 0.3, 0.6}, 0.4, true}, Case{{1.0, 0.3, 0.6}, 0.05, false}}) {
+    const Moments m = boxOnTip(c.size, c.height);
+    EXPECT_EQ(spinVerdict(m)->isReached(m), c.spins) << c.size.transpose();
+    EXPECT_EQ(largestViolation(*spinGoal(m), m) < 1e-12, c.spins) << c.size.transpose();
+    const Report report = described(*spinVerdict(m), m);
+    const bool hasSpeed =
+        std::any_of(report.entries.begin(), report.entries.end(),
+                    [](const auto& entry) { return entry.first == "sleeping_speed_after"; });
+    EXPECT_EQ(hasSpeed, c.spins);
   }
 }
 
+TEST(SpinGoal, AsksForAMomentThatIsNotBetweenTheOtherTwoOnTheTip) {
+  // (C − A)(C − B)/C² of a box, A and B with the square of the tip's distance; turned about its
+  // axis it stays the same.
+  const Vec3 s(1.0, 0.3, 0.6);
+  const double height = 0.05;
+  const double A = (s.y() * s.y() + s.z() * s.z()) / 12 + height * height;
+  const double B = (s.x() * s.x() + s.z() * s.z()) / 12 + height * height;
+  const double C = (s.x() * s.x() + s.y() * s.y()) / 12;
+  const Moments m = boxOnTip(s, height);
+  const Moments turned = momentsOf(transformed(transformed(box(s, 1), rotation(Vec3::UnitZ(), 0.7)),
+                                               Mat3::Identity(), {0, 0, height}));
+  for (const Moments& body : {m, turned}) {
+    EXPECT_NEAR(spinGoal(m)->inequalities(body).values[1], -(C - A) * (C - B) / (C * C), 1e-12);
+  }
+}
+
+TEST(SpinGoal, ReportsTheSpeedFromWhichItSleeps) {
+  // A disc of 40 × 5 mm, 20 mm above its tip: 2 sqrt(g h (I_a/m + h²))/(I_zz/m).
+  const TriangleMesh disc = revolved({{0, 2.5}, {20, 2.5}, {20, -2.5}, {0, -2.5}}, 400);
+  const Moments m = momentsOf(transformed(disc, Mat3::Identity(), {0, 0, 20}));
+  const double across = 400 / 4.0 + 25 / 12.0 + 400;
+  const double expected = 2 * std::sqrt(9806.65 * 20 * across) / 200 * 30 / std::acos(-1.0);
+  const auto verdict = [&](double rpm) { return makeSpinVerdict(m, Vec2::Zero(), 1.0, rpm); };
+  const double told = number(described(*verdict(1000), m), "sleeping_speed_after");
+  EXPECT_NEAR(told, expected, 1e-3 * expected); // a circle of 400 corners
+  EXPECT_TRUE(verdict(told + 1)->isReached(m));
+  EXPECT_FALSE(verdict(told - 1)->isReached(m));
+  EXPECT_EQ(verdict(500)->whatIsMissed(m), "it stays upright only above " +
+                                               std::to_string(int(std::ceil(told))) +
+                                               " rpm, and a hand gives it 500 (spin_speed)");
+  // Four times as large: half the speed.
+  const double large =
+      number(described(*makeSpinVerdict(m, Vec2::Zero(), 4.0, 1000), m), "sleeping_speed_after");
+  EXPECT_NEAR(large, told / 2, 1e-9 * told);
+}
+
 TEST(SpinGoal, IsNotReachedOffTheAxis) {
-  const Moments m = translated(standingBox({1.0, 0.8, 0.3}), {0.01, 0, 0});
+  const Moments m = translated(standingBox({1.0, 0.8, 0.2}), {0.01, 0, 0});
   EXPECT_FALSE(spinVerdict(m)->isReached(m));
 }
 
 TEST(SpinGoal, TurnsAboutTheGivenAxis) {
-  const Moments m = standingBox({1.0, 0.8, 0.3});
+  const Moments m = standingBox({1.0, 0.8, 0.2});
   const Vec2 axis(0.2, -0.1);
   const auto goal = makeSpinGoal(m, kPublished, axis);
-  const auto verdict = makeSpinVerdict(m, axis, 1.0);
+  const auto verdict = makeSpinVerdict(m, axis, kMetre, kFast);
   EXPECT_NEAR(goal->objective(m).value, spinGoal(m)->objective(m).value, 1e-12);
   EXPECT_LT(largestViolation(*goal, translated(m, {0.2, -0.1, 0})), 1e-12);
   EXPECT_FALSE(verdict->isReached(m));
@@ -356,7 +412,7 @@ TEST(SpinGoal, TurnsAboutTheGivenAxis) {
 TEST(SpinVerdict, NamesTheConstraintThatIsViolatedMost) {
   const Moments upright = standingBox({1.0, 0.8, 0.3});
   const auto goal = makeSpinGoal(upright, kPublished);
-  const auto verdict = makeSpinVerdict(upright, Vec2::Zero(), 100.0);
+  const auto verdict = makeSpinVerdict(upright, Vec2::Zero(), 100.0, kFast);
   const auto told = [&](const Moments& m) { return verdict->worstViolation(m); };
   EXPECT_EQ(told(translated(upright, {0.03, -0.04, 0})), "the centre of mass lies 5 off the axis");
   const TriangleMesh leaning =
@@ -381,6 +437,18 @@ TEST(YoYoVerdict, NamesTheConstraintThatIsViolatedMost) {
 TEST(YoYoGoal, HasTheGradientsOfItsValues) {
   const Moments solid = momentsOf(transformed(blob(5), someRotation(), {0.2, -0.1, 0.7}));
   expectGradientsMatch(*makeYoYoGoal(solid, kPublished, {0.1, 0.2, 0.5}), solid);
+}
+
+TEST(YoYoGoal, IsNotReachedAboutTheMiddleMomentOfTheCentre) {
+  const Moments m = boxOnTip({1.0, 0.3, 0.6}, 0.4);
+  const auto goal = makeYoYoGoal(m, kPublished, {0, 0, 0.4});
+  EXPECT_FALSE(makeYoYoVerdict(m, {0, 0, 0.4}, 1.0)->isReached(m));
+  const double A = 0.45;
+  const double B = 1.36;
+  const double C = 1.09;
+  EXPECT_NEAR(largestViolation(*goal, m), (C - A) * (B - C) / (C * C), 1e-12);
+  EXPECT_EQ(makeYoYoVerdict(m, {0, 0, 0.4}, 1.0)->worstViolation(m).rfind("it has its middle", 0),
+            0U);
 }
 
 TEST(YoYoGoal, IsReachedWithTheCentreInTheMiddleOfTheAxleOnly) {
@@ -442,16 +510,6 @@ TEST(StandEmptyAndFilledGoal, NeedsBothStates) {
   const auto verdict = makeStandEmptyAndFilledVerdict(square(0.5), outer, 1.0, 1.0);
   EXPECT_FALSE(verdict->isReached(empty));
   EXPECT_NE(verdict->worstViolation(empty).find("filled"), std::string::npos);
-}
-
-TEST(RollUprightGoal, CountsTheRestingFaces) {
-  // A tumbler with its centre of mass above and below the centre of its round foot.
-  const TriangleMesh tumbler = transformed(capsule(0.3, 0.3, 160), Mat3::Identity(), {0, 0, 0.45});
-  const auto verdict = makeRollUprightVerdict({}, tumbler.vertices, 1.0);
-  EXPECT_TRUE(verdict->isReached(bodyAt({0, 0, 0.2})));
-  EXPECT_FALSE(verdict->isReached(bodyAt({0, 0, 0.45})));
-  EXPECT_EQ(std::get<int>(described(*verdict, bodyAt({0, 0, 0.2})).at("resting_faces_after")), 1);
-  expectGradientsMatch(*makeRollUprightGoal({}, kPublished), bodyAt({0.01, 0.02, 0.2}));
 }
 
 TEST(FloatGoal, HasTheGradientsOfItsValues) {

@@ -112,6 +112,16 @@ def spin_measures(vertices, centre, inertia):
     return np.linalg.norm(centre[:2] - pivot), tilt, inertia[2, 2] / high, inertia[2, 2] / low
 
 
+def growth_of_top(bottom, centre, inertia, mass, rpm):
+    """How fast a disturbance grows of a top that turns upright on its tip at z = `bottom`: the largest
+    real part of the eigenvalues of Euler's equations, in turns of the top. Millimetres and grams."""
+    height, turn = centre[2] - bottom, rpm * np.pi / 30
+    a, b = np.linalg.eigvalsh(inertia[:2, :2]) + mass * height**2
+    c, weight = inertia[2, 2], mass * 9806.65 * height / turn**2
+    return np.linalg.eigvals([[0, (b - c) / a, 0, weight / a], [(c - a) / b, 0, -weight / b, 0],
+                              [0, -1, 0, 1], [1, 0, -1, 0]]).real.max()
+
+
 def below(surface, level, slices=400):
     """Volume and centre of what lies below z = level: areas of horizontal cuts, added up."""
     vertices, faces = surface

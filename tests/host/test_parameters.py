@@ -211,6 +211,17 @@ class ParametersTest(HostTest):
         self.assertAlmostEqual(yo_yo["middle_offset_before"],
                                yo_yo["center_of_mass_before"][2] - 20, delta=1e-4)
 
+    def test_spin_speed_is_what_the_hand_gives(self):
+        report, _ = self.top()
+        self.assertTrue(report["spins_after"])
+        speed = report["sleeping_speed_after"]
+        slow, _ = self.top(spin_speed=0.95 * speed)
+        self.assertFalse(slow["spins_after"])
+        self.assertIn(f"{np.ceil(speed):.0f} rpm", slow["message"])
+        self.assertAlmostEqual(slow["sleeping_speed_after"], speed, delta=1e-6 * speed)
+        fast, _ = self.top(spin_speed=1.05 * speed)
+        self.assertTrue(fast["spins_after"])
+
     def test_water_level_is_the_waterline(self):
         height = np.ptp(read_ply(DUCK)[0][:, 2])
         for level in (0.3, 0.6):

@@ -161,7 +161,8 @@ class RefusalsTest(HostTest):
                 self.refuse(cube(), "opt_weight", basis_k=8, **{f"opt_weight_{i}": -1})
 
     def test_parameters_of_single_goals(self):
-        store, floats, hang, mass = 3, 5, 6, 7
+        spin, store, floats, hang, mass = 1, 3, 5, 6, 7
+        self.refuse(cube(), "spin_speed", goal=spin, spin_speed=0)
         self.refuse(cube(), "needs fill_density", goal=store)
         self.refuse(cube(), "water_level", goal=floats, water_level=0)
         self.refuse(cube(), "water_level", goal=floats, water_level=1.5)

@@ -89,6 +89,13 @@ class SamplesTest(HostTest):
             self.assertAlmostEqual(report[f"axis_tilt_{state}"], tilt, delta=1e-4)
             self.assertAlmostEqual(report[f"moment_ratio_a_{state}"], a, delta=1e-6)
             self.assertAlmostEqual(report[f"moment_ratio_b_{state}"], b, delta=1e-6)
+            if goal == "Spin":
+                speed = report[f"sleeping_speed_{state}"]
+                # The root of twice the rounding, and a growth by the root of the missing thousandth.
+                at = [measure.growth_of_top(outer[0][:, 2].min(), centre, inertia, mass, f * speed)
+                      for f in (0.999, 1.001)]
+                self.assertGreater(at[0], 1e-4)
+                self.assertLess(at[1], 1e-6)
             if goal == "Yo-yo":
                 z = outer[0][:, 2]
                 self.assertAlmostEqual(report[f"middle_offset_{state}"],

@@ -573,6 +573,7 @@ PropertyCase makeCase(std::uint32_t seed, int number) {
     o.pivot = middle + 0.2 * diagonal * chance.direction();
   }
   if (chance.oneIn(5)) o.weights.volume = chance.between(0.0, 2.0);
+  o.spinSpeed = chance.logBetween(100.0, 1e5);
   if (c.floats)
     o.representable = [](const Points& points) {
       return Points(points.cast<float>().cast<double>());
@@ -588,6 +589,7 @@ PropertyCase makeCase(std::uint32_t seed, int number) {
     text << " water " << o.waterLevel << " of density " << o.waterDensity / o.density;
   }
   if (o.tippingAngle > 0.0) text << " tipping angle " << o.tippingAngle;
+  if (o.goal == GoalKind::Spin) text << " rpm " << o.spinSpeed;
   if (o.goal == GoalKind::Mass) text << " target " << o.targetMass;
   if (o.pivot) text << " pivot";
   if (o.weights.volume > 0.0) text << " volume weight " << o.weights.volume;

@@ -1,0 +1,52 @@
+// A body that spins about a vertical axis: what Spin and Yo-yo have in common.
+#pragma once
+
+#include "core/base/report.h"
+#include "core/goals/goal.h"
+#include "core/mesh/annotations.h"
+
+#include <string>
+
+namespace massprops {
+
+/// (I_a² + I_b²)/I_zz² of the moments about the centre of mass, I_a and I_b the horizontal
+/// principal ones. [BWBSH14, Sec. 4]
+GoalValue inertiaRatios(const Moments& massMoments);
+
+/// Four: the centre of mass on the vertical through `axis`, working lengths, and I_xz and I_yz in
+/// shares of `solidInertia`, the solid's I_zz.
+GoalConstraints axisConstraints(const Moments& massMoments, const Vec2& axis, double solidInertia);
+
+/// What the body turns about: its centre of mass, or the tip on the ground below that.
+enum class TurnsAbout { Centre, Tip };
+
+/// One, ≤ 0: the moment about the vertical is not between the two across, in squares of
+/// `solidInertia`. docs/math.md "Spin"
+GoalConstraints notTheMiddleMoment(const Moments& massMoments, TurnsAbout point,
+                                   double solidInertia);
+
+/// How a body lies about its axis.
+struct SpinningAxis {
+  double offset;         ///< of the centre of mass from the axis, working length
+  double tilt;           ///< of the principal axis nearest to the vertical, degrees
+  double ratioA, ratioB; ///< I_zz/I_a ≤ I_zz/I_b of the horizontal moments I_a ≥ I_b
+
+  bool isCentred() const;
+  bool isUpright() const;
+  void describe(double lengthUnit, const std::string& suffix, Report& report) const;
+};
+
+SpinningAxis spinningAxis(const Moments& massMoments, const Vec2& axis);
+
+/// The greater violation in words: of the centre's offset and of the products of inertia.
+std::string axisViolation(const Eigen::Vector4d& axisConstraints, double lengthUnit);
+
+/// `distance`: in the model's units.
+std::string offAxis(double distance);
+
+/// `tilt`: in degrees.
+std::string leaningAxis(double tilt);
+
+void drawAxis(const Vec2& axis, Annotations& annotations);
+
+} // namespace massprops
