@@ -81,8 +81,9 @@ CavityTask taskAlong(double wantedClearance, const Goal& goal, const Preparation
   task.inputMoments = model.solidMoments + moments(posed.cavities.vertices, posed.cavities.faces);
   task.wall = posed.wall;
   task.bound = foundation.bound;
-  const bool followsOuter =
-      options.goal == GoalKind::Float || options.goal == GoalKind::StandEmptyAndFilled;
+  const bool followsOuter = options.goal == GoalKind::Float ||
+                            options.goal == GoalKind::StandEmptyAndFilled ||
+                            options.goal == GoalKind::RollUpright;
   if (moves(options) && followsOuter) {
     task.goalFor = [&](const Points& outer) { return makeGoal(options, posed, outer); };
   }

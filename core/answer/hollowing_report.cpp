@@ -33,9 +33,13 @@ MassProperties inModel(const Moments& massMoments, const Frame& frame, double de
 /// What a cavity of any shape could do about a goal that is missed.
 std::string outlook(const CavityTask& task, const Verdict& verdict, bool isProved) {
   if (!task.bound) return "";
+  if (task.bound->isOutOfReach) {
+    return " No cavity of any shape that keeps this wall can reach it.";
+  }
   if (task.bound->isReachable()) {
-    return verdict.isReached(task.bound->massMoments) ? " A cavity of another shape could reach it."
-                                                      : "";
+    return verdict.isReached(task.bound->massMoments)
+               ? " A cavity of another shape could reach it."
+               : " No cavity of any other shape was found to reach it.";
   }
   const LevelBound* best = task.bound->bestLevel();
   return std::string(isProved ? " No cavity of any shape that keeps this wall can reach it: "

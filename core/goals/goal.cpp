@@ -24,6 +24,10 @@ std::optional<double> Goal::measure(const Moments& /*massMoments*/) const {
   return std::nullopt;
 }
 
+bool Goal::noneCan(const Moments& /*best*/, const std::function<HalfSpaces()>& /*centres*/) const {
+  return false;
+}
+
 double largestViolation(const Goal& goal, const Moments& massMoments) {
   double largest = 0.0;
   for (const double e : goal.equalities(massMoments).values) {

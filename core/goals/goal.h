@@ -2,8 +2,10 @@
 #pragma once
 
 #include "core/base/types.h"
+#include "core/physics/half_spaces.h"
 #include "core/physics/mass_properties.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -66,6 +68,9 @@ public:
   virtual std::optional<double> measure(const Moments& massMoments) const;
   /// What to pursue where the constraints cannot be kept; null: their least violation.
   virtual std::unique_ptr<Goal> insteadOfConstraints() const { return nullptr; }
+  /// Whether it is certain that no body with its centre of mass in a set does what is asked for.
+  /// `best`: one that there is; `centres` gives the set, which is asked for only where it counts.
+  virtual bool noneCan(const Moments& best, const std::function<HalfSpaces()>& centres) const;
 };
 
 /// Largest |equality| or positive inequality.

@@ -100,8 +100,8 @@ std::vector<GoalEntry> allGoals() {
        }},
       {GoalKind::RollUpright, "Roll upright",
        "it comes back upright from every position, like a tumbler", 0,
-       [](const In& in) { return makeRollUprightGoal(in.posed.contact, in.options.weights); },
-       [](const In& in) { return makeRollUprightVerdict(in.posed.contact, in.outer, unit(in)); }},
+       [](const In& in) { return makeRollUprightGoal(in.outer, in.options.weights); },
+       [](const In& in) { return makeRollUprightVerdict(in.posed.contact, in.outer); }},
       {GoalKind::Float, "Float", "it floats upright at the given waterline", 3,
        [](const In& in) {
          return makeFloatGoal(in.outer, in.posed.faces, in.options.waterLevel, waterDensity(in),

@@ -1,83 +1,168 @@
 #include "core/goals/roll_upright.h"
 
 #include "core/base/angles.h"
-#include "core/goals/published_stand.h"
-#include "core/goals/stand.h"
+#include "core/physics/rolling_metacentres.h"
 #include "core/physics/stable_poses.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace massprops {
 namespace {
 
-/// Radius of the disc that stands for an area that is a point, in diagonals.
-constexpr double kPointRadius = 0.01;
 /// A swaying body rolls over steps this high, in diagonals: those of the facets of a round foot.
 constexpr double kBarrier = 5e-4;
+/// In proofs: more than that, whatever is rounded.
+constexpr double kProvenBarrier = 1.001 * kBarrier;
 /// Verdict: what the eye still takes for upright.
 constexpr double kUpright = 2.0; // degrees
+/// How sharply the objective tells the lowest metacentre from others, per diagonal.
+constexpr double kSharpness = 200.0;
+/// Faces of the hull that are looked at for a proof, over all boxes of centres of mass: a second or
+/// two.
+constexpr std::ptrdiff_t kMostFaces = 6000000;
+/// Radius of the disc that is drawn for an area that is a point, in diagonals.
+constexpr double kPointRadius = 0.01;
 
-ContactArea areaOrDisc(ContactArea area) {
-  if (!area.radii && area.polygon.empty()) area.radii = Vec2(kPointRadius, kPointRadius);
-  return area;
+double tiltOf(const Vec3& down) {
+  return std::acos(std::clamp(-down.z(), -1.0, 1.0)) * kDegrees;
 }
+
+StablePoses posesOf(const RollingHull& hull, const Moments& massMoments) {
+  return stablePoses(hull, massProperties(massMoments).centerOfMass, kBarrier);
+}
+
+bool rollsUpright(const StablePoses& poses) {
+  return poses.rests.size() == 1 && tiltOf(poses.down) < kUpright;
+}
+
+Eigen::AlignedBox3d boundsOf(const Points& points) {
+  return {Vec3(points.colwise().minCoeff().transpose()),
+          Vec3(points.colwise().maxCoeff().transpose())};
+}
+
+class RollUprightGoal final : public Goal {
+public:
+  RollUprightGoal(const Points& outer, const Weights& weights)
+      : hull_(rollingHull(outer)), metacentres_(rollingMetacentres(hull_.vertices)),
+        weight_(weights.centerOfMass) {}
+
+  /// c_z + log Σ exp(β (slope·c − height))/β: a smooth maximum.
+  GoalValue objective(const Moments& massMoments) const override {
+    const MassProperties body = massProperties(massMoments);
+    const Vec3& c = body.centerOfMass;
+    const Vector above = metacentres_.slopes * c.head<2>() - metacentres_.heights;
+    const double highest = above.maxCoeff();
+    const Vector shares = (kSharpness * (above.array() - highest)).exp();
+    const double sum = shares.sum();
+    Eigen::RowVector3d slope;
+    slope << shares.transpose() * metacentres_.slopes / sum, 1.0;
+    GoalValue f;
+    f.value = weight_ * (c.z() + highest + std::log(sum) / kSharpness);
+    f.gradient = weight_ * slope * massPropertyGradients(body).centerOfMass;
+    return f;
+  }
+
+  GoalConstraints equalities(const Moments& /*massMoments*/) const override { return {}; }
+  GoalConstraints inequalities(const Moments& /*massMoments*/) const override { return {}; }
+  bool usesInertia() const override { return false; }
+
+  /// Branch and bound over boxes of centres: each has nothing of the set, or keeps a resting pose
+  /// that is not upright, or is cut in two.
+  bool noneCan(const Moments& best, const std::function<HalfSpaces()>& centres) const override {
+    if (rollsUpright(posesAt(massProperties(best).centerOfMass))) return false;
+    const HalfSpaces set = centres();
+    std::vector<Eigen::AlignedBox3d> boxes{boundsOf(hull_.vertices)};
+    std::ptrdiff_t left = kMostFaces;
+    while (!boxes.empty()) {
+      const Eigen::AlignedBox3d box = boxes.back();
+      boxes.pop_back();
+      if (set.miss(box)) continue;
+      left -= hull_.faces.rows();
+      if (left < 0) return false;
+      if (keepsAnotherRest(box)) continue;
+      if (set.contain(box.center()) && rollsUpright(posesAt(box.center()))) return false;
+      Eigen::Index axis = 0;
+      box.sizes().maxCoeff(&axis);
+      for (const bool isUpper : {false, true}) {
+        Eigen::AlignedBox3d half = box;
+        (isUpper ? half.min() : half.max())[axis] = box.center()[axis];
+        boxes.push_back(half);
+      }
+    }
+    return true;
+  }
+
+private:
+  StablePoses posesAt(const Vec3& centre) const { return stablePoses(hull_, centre, kBarrier); }
+
+  bool keepsAnotherRest(const Eigen::AlignedBox3d& box) const {
+    const std::vector<HalfSpaces> wells =
+        restingWells(hull_, box.center(), kProvenBarrier, kUpright / kDegrees);
+    return std::any_of(wells.begin(), wells.end(),
+                       [&](const HalfSpaces& well) { return well.contain(box); });
+  }
+
+  RollingHull hull_;
+  RollingMetacentres metacentres_;
+  double weight_;
+};
 
 class RollUprightVerdict final : public Verdict {
 public:
-  RollUprightVerdict(const ContactArea& area, const Points& outer, double lengthUnit)
-      : stand_(makeStandVerdict(areaOrDisc(area), lengthUnit)), hull_(rollingHull(outer)) {}
-
-  bool isReached(const Moments& massMoments) const override { return isReached(rest(massMoments)); }
-
-  std::string worstViolation(const Moments& massMoments) const override {
-    return stand_->worstViolation(massMoments);
+  RollUprightVerdict(ContactArea area, const Points& outer)
+      : area_(std::move(area)), hull_(rollingHull(outer)) {
+    if (!area_.radii && area_.polygon.empty()) area_.radii = Vec2(kPointRadius, kPointRadius);
   }
 
-  std::string whatIsMissed(const Moments& massMoments) const override {
-    const StablePoses poses = rest(massMoments);
-    return poses.count == 1 ? "it comes to rest " + toString(tilt(poses)) + "\u00b0 off upright"
-                            : "it can come to rest on " + toString(poses.count) +
-                                  " different faces instead of one";
+  bool isReached(const Moments& massMoments) const override {
+    return rollsUpright(posesOf(hull_, massMoments));
+  }
+
+  std::string worstViolation(const Moments& massMoments) const override {
+    const StablePoses poses = posesOf(hull_, massMoments);
+    return poses.rests.size() == 1
+               ? "it comes to rest " + toString(tiltOf(poses.down)) + "\u00b0 off upright"
+               : "it can come to rest on " + std::to_string(poses.rests.size()) +
+                     " different faces instead of one";
   }
 
   void describe(const Moments& massMoments, const std::string& suffix,
                 Report& report) const override {
-    const StablePoses poses = rest(massMoments);
-    report.add("resting_faces_" + suffix, poses.count);
-    report.add("rest_tilt_" + suffix, tilt(poses));
-    report.add("rolls_upright_" + suffix, isReached(poses));
+    const StablePoses poses = posesOf(hull_, massMoments);
+    report.add("resting_faces_" + suffix, static_cast<int>(poses.rests.size()));
+    report.add("rest_tilt_" + suffix, tiltOf(poses.down));
+    report.add("rolls_upright_" + suffix, rollsUpright(poses));
   }
 
+  /// What it stands on upright, and the centres of mass plumb above.
   std::string draw(const Moments& before, const Moments& after,
                    Annotations& annotations) const override {
-    return stand_->draw(before, after, annotations);
+    std::vector<Vec3> corners;
+    for (const Vec2& p : outline(area_)) corners.emplace_back(p.x(), p.y(), 0.0);
+    annotations.addLoop(corners, kGroundColour);
+    for (const auto& [moments, colour] :
+         {std::pair(&before, kBeforeColour), std::pair(&after, kAfterColour)}) {
+      const Vec3 c = massProperties(*moments).centerOfMass;
+      annotations.addLine(c, {c.x(), c.y(), 0.0}, colour);
+    }
+    return "contact area";
   }
 
 private:
-  StablePoses rest(const Moments& massMoments) const {
-    return stablePoses(hull_, massProperties(massMoments).centerOfMass, kBarrier);
-  }
-  static double tilt(const StablePoses& poses) {
-    return std::acos(std::clamp(-poses.down.z(), -1.0, 1.0)) * kDegrees;
-  }
-  static bool isReached(const StablePoses& poses) {
-    return poses.count == 1 && tilt(poses) < kUpright;
-  }
-
-  std::unique_ptr<Verdict> stand_;
+  ContactArea area_;
   RollingHull hull_;
 };
 
 } // namespace
 
-std::unique_ptr<Goal> makeRollUprightGoal(const ContactArea& area, const Weights& weights) {
-  return makePublishedStandGoal(areaOrDisc(area), 1.0, weights);
+std::unique_ptr<Goal> makeRollUprightGoal(const Points& outer, const Weights& weights) {
+  return std::make_unique<RollUprightGoal>(outer, weights);
 }
 
-std::unique_ptr<Verdict> makeRollUprightVerdict(const ContactArea& area, const Points& outer,
-                                                double lengthUnit) {
-  return std::make_unique<RollUprightVerdict>(area, outer, lengthUnit);
+std::unique_ptr<Verdict> makeRollUprightVerdict(const ContactArea& area, const Points& outer) {
+  return std::make_unique<RollUprightVerdict>(area, outer);
 }
 
 } // namespace massprops

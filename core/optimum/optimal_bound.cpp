@@ -3,6 +3,7 @@
 #include "core/base/symmetric_eigen.h"
 #include "core/base/tolerances.h"
 #include "core/goals/objective.h"
+#include "core/optimum/achievable_centres.h"
 
 #include <algorithm>
 #include <cmath>
@@ -170,6 +171,8 @@ OptimalBound optimalBound(const Goal& goal, const Weights& weights, const Moment
     bound.quadric = bodies.quadric(q);
   }
   bound.violation = largestViolation(goal, bound.massMoments);
+  bound.isOutOfReach =
+      goal.noneCan(bound.massMoments, [&] { return achievableCentres(solid, fillDensity, cells); });
   return bound;
 }
 

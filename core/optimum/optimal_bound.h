@@ -27,6 +27,8 @@ struct OptimalBound {
   /// Of the goal's conditions, in their order; empty where they are not linear.
   std::vector<LevelBound> levels;
   double wantedLevel = 0.0; ///< of the goal
+  /// For certain: no cavity does what the goal asks for, see `Goal::noneCan`.
+  bool isOutOfReach = false;
   /// (1, x, y, z, xx, yy, zz, xy, yz, zx)·quadric > 0 where the body is hollow.
   Moments quadric = Moments::Zero();
 

@@ -73,11 +73,10 @@ inline Matrix allGradients(const Goal& goal, const Moments& m) {
   return all;
 }
 
-inline void expectGradientsMatch(const Goal& goal, const Moments& m) {
+/// Smooth functions of order one: truncation h² = 1e-10, rounding 1e-16/h = 1e-11; both times the
+/// third derivatives and values, some tens for the quotient of moments.
+inline void expectGradientsMatch(const Goal& goal, const Moments& m, double h = 1e-5) {
   const Matrix gradients = allGradients(goal, m);
-  // Smooth functions of order one: truncation h² = 1e-10, rounding 1e-16/h = 1e-11; both times the
-  // third derivatives and values, some tens for the quotient of moments.
-  const double h = 1e-5;
   for (int k = 0; k < 10; ++k) {
     Moments step = Moments::Zero();
     step[k] = h;

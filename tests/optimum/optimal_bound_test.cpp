@@ -308,7 +308,7 @@ INSTANTIATE_TEST_SUITE_P(
         Impossible{"StandEmptyAndFilled", "leaning_egg", GoalKind::StandEmptyAndFilled,
                    [](Options& o) { o.fillDensity = 0.6; }, "outside of the contact area"},
         Impossible{"RollUpright", "leaning_egg", GoalKind::RollUpright, [](Options&) {},
-                   "outside of the contact area", false},
+                   "can reach it."},
         Impossible{"Float", "bath_duck", GoalKind::Float, [](Options& o) { o.waterLevel = 0.05; },
                    "too heavy"},
         Impossible{"Hang", "hanging_fish", GoalKind::Hang,
