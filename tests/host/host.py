@@ -151,6 +151,20 @@ def layers_of(project):
             for mesh in xml.fromstring(text).iter("MLMesh")]
 
 
+def keep_delivered(sample, log, inner, moved_outer=None):
+    """Leaves what the filter delivered in the folder that other tests read it from, if there is one."""
+    if "MASSPROPS_DELIVERED" not in os.environ:
+        return
+    folder = pathlib.Path(os.environ["MASSPROPS_DELIVERED"])
+    folder.mkdir(exist_ok=True)
+    (folder / f"{sample}_report.txt").write_text(log)
+    shutil.copy(inner, folder / f"{sample}_inner.ply")
+    outer = folder / f"{sample}_outer.ply"
+    outer.unlink(missing_ok=True)
+    if moved_outer:
+        shutil.copy(moved_outer, outer)
+
+
 def bounds_a_volume(*files):
     """Empty when all files together bound a printable solid, else what is wrong."""
     done = subprocess.run([os.environ["MASSPROPS_BOUNDS_A_VOLUME"], *map(str, files)],

@@ -6,8 +6,8 @@ import unittest
 import numpy as np
 
 import measure
-from host import (SAMPLES, HostTest, ROOT, bounds_a_volume, layers_of, meshlabserver, read_ply, report_in,
-                  script_of)
+from host import (SAMPLES, HostTest, ROOT, bounds_a_volume, keep_delivered, layers_of, meshlabserver,
+                  read_ply, report_in, script_of)
 import xml.etree.ElementTree as xml
 
 
@@ -32,6 +32,7 @@ class SamplesTest(HostTest):
             status, log = meshlabserver("-i", mesh, "-o", inner_file, "-l", "x", "-s", script)
             outer_file = mesh
         self.assertEqual(status, 0, log)
+        keep_delivered(sample, log, inner_file, outer_file if moves else None)
         report = report_in(log)
         solid, outer, inner = read_ply(mesh), read_ply(outer_file), read_ply(inner_file)
 
