@@ -18,7 +18,7 @@ constexpr double kProvenBarrier = 1.001 * kBarrier;
 /// Verdict: what the eye still takes for upright.
 constexpr double kUpright = 2.0; // degrees
 /// How sharply the objective tells the lowest metacentre from others, per diagonal.
-constexpr double kSharpness = 200.0;
+constexpr double kSharpness = 60.0;
 /// Faces of the hull that are looked at for a proof, over all boxes of centres of mass: a second or
 /// two.
 constexpr std::ptrdiff_t kMostFaces = 6000000;
