@@ -9,6 +9,7 @@
 #include <cmath>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace massprops {
 namespace {
@@ -47,6 +48,10 @@ public:
   }
 
   bool usesInertia() const override { return true; }
+
+  std::vector<LinearConditions> conditions() const override {
+    return spinningConditions({axis_.x(), axis_.y(), 0.0}, false, solidMass_, solidInertia_);
+  }
 
 private:
   double solidMass_;

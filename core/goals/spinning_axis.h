@@ -6,6 +6,7 @@
 #include "core/mesh/annotations.h"
 
 #include <string>
+#include <vector>
 
 namespace massprops {
 
@@ -24,6 +25,13 @@ enum class TurnsAbout { Centre, Tip };
 /// `solidInertia`. docs/math.md "Spin"
 GoalConstraints notTheMiddleMoment(const Moments& massMoments, TurnsAbout point,
                                    double solidInertia);
+
+/// What `axisConstraints` and `notTheMiddleMoment` ask for, in shares of the solid's mass and I_zz,
+/// with the centre of mass on the axis: linear then, but in two branches, the moment about the
+/// vertical being the greatest or the least. `point`: of the axis, about which the body turns;
+/// `isCentred`: the centre of mass is there, too. docs/math.md "Spin"
+std::vector<LinearConditions> spinningConditions(const Vec3& point, bool isCentred,
+                                                 double solidMass, double solidInertia);
 
 /// How a body lies about its axis.
 struct SpinningAxis {

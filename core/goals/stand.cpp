@@ -61,18 +61,21 @@ public:
 
   GoalConstraints equalities(const Moments& /*massMoments*/) const override { return {}; }
 
-  /// u·c + t c_z ≤ extent(u) for all directions, and for the one that the body tips over in.
+  /// tan(wanted) ≤ (extent(u) − u·c)/c_z for all directions, and for the one that the body tips
+  /// over in: the violation is that of the angle.
   GoalConstraints inequalities(const Moments& massMoments) const override {
-    const MassProperties body = massProperties(massMoments);
-    const Vec3& c = body.centerOfMass;
-    const auto gradient = massPropertyGradients(body).centerOfMass;
     const auto count = static_cast<Eigen::Index>(directions_.size());
-    GoalConstraints g{Vector(count + 1), MomentGradients(count + 1, 10)};
+    GoalConstraints g{Vector(count + 1), MomentGradients::Zero(count + 1, 10)};
+    const Vec3 S = massMoments.segment<3>(1);
     for (Eigen::Index i = 0; i <= count; ++i) {
       const Vec2 u = i < count ? directions_[static_cast<std::size_t>(i)].unit
-                               : weakestDirection(area_, c.head<2>());
-      g.values[i] = u.dot(c.head<2>()) + wanted_ * c.z() - extent(area_, u);
-      g.gradients.row(i) = u.transpose() * gradient.topRows<2>() + wanted_ * gradient.row(2);
+                               : weakestDirection(area_, S.head<2>() / massMoments[0]);
+      const double farthest = extent(area_, u);
+      const double beyond = (u.dot(S.head<2>()) - farthest * massMoments[0]) / S.z();
+      g.values[i] = wanted_ + beyond;
+      g.gradients(i, 0) = -farthest / S.z();
+      g.gradients.row(i).segment<2>(1) = u.transpose() / S.z();
+      g.gradients(i, 3) = -beyond / S.z();
     }
     return g;
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace massprops {
 namespace {
@@ -15,7 +16,8 @@ constexpr double kCentred = 1e-3;
 class YoYoGoal final : public Goal {
 public:
   YoYoGoal(const Moments& solidMassMoments, const Weights& weights, Vec3 pivot)
-      : solidInertia_(massProperties(solidMassMoments).inertiaTensor(2, 2)),
+      : solidMass_(solidMassMoments[0]),
+        solidInertia_(massProperties(solidMassMoments).inertiaTensor(2, 2)),
         weight_(weights.inertia), pivot_(std::move(pivot)) {}
 
   GoalValue objective(const Moments& massMoments) const override {
@@ -38,7 +40,12 @@ public:
 
   bool usesInertia() const override { return true; }
 
+  std::vector<LinearConditions> conditions() const override {
+    return spinningConditions(pivot_, true, solidMass_, solidInertia_);
+  }
+
 private:
+  double solidMass_;
   double solidInertia_;
   double weight_;
   Vec3 pivot_;

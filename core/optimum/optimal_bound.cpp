@@ -138,7 +138,7 @@ private:
 
 bool OptimalBound::isReachable() const {
   const LevelBound* best = bestLevel();
-  return violation <= kReachable && (best == nullptr || best->reached >= wantedLevel - kReachable);
+  return best != nullptr ? best->reached >= wantedLevel - kReachable : violation <= kReachable;
 }
 
 const LevelBound* OptimalBound::bestLevel() const {
@@ -152,17 +152,19 @@ const LevelBound* OptimalBound::bestLevel() const {
 OptimalBound optimalBound(const Goal& goal, const Weights& weights, const Moments& solid,
                           double fillDensity, const AdmissibleCells& cells) {
   OptimalBound bound;
-  for (const LinearConditions& conditions : goal.conditions()) {
-    bound.levels.push_back(greatestLevel(conditions, solid, fillDensity, cells));
-  }
   bound.wantedLevel = goal.wantedLevel();
-  const bool isLevel = goal.measure(solid).has_value() && weights.volume == 0.0;
-  if (isLevel && !bound.levels.empty()) {
+  const auto findLevels = [&] {
+    for (const LinearConditions& conditions : goal.conditions()) {
+      bound.levels.push_back(greatestLevel(conditions, solid, fillDensity, cells));
+    }
+  };
+  const bool isMeasured = goal.measure(solid).has_value();
+  if (isMeasured) findLevels();
+  if (!bound.levels.empty() && weights.volume == 0.0) {
     const LevelBound& best = *bound.bestLevel();
     bound.massMoments = best.body;
     bound.quadric = (1.0 - fillDensity) * best.functional.head<10>();
     bound.objective = goal.objective(best.body).value;
-    bound.measure = goal.measure(best.body);
   } else {
     const HollowBodies bodies(goal, weights, solid, fillDensity, cells);
     const Vector q = bodies.best().x;
@@ -170,7 +172,9 @@ OptimalBound optimalBound(const Goal& goal, const Weights& weights, const Moment
     bound.objective = bodies.objective(q);
     bound.quadric = bodies.quadric(q);
   }
+  if (weights.volume == 0.0) bound.measure = goal.measure(bound.massMoments);
   bound.violation = largestViolation(goal, bound.massMoments);
+  if (!isMeasured && bound.violation > OptimalBound::kReachable) findLevels();
   bound.isOutOfReach =
       goal.noneCan(bound.massMoments, [&] { return achievableCentres(solid, fillDensity, cells); });
   return bound;

@@ -24,7 +24,8 @@ struct OptimalBound {
       0.0; ///< largest of the goal's constraints; > 0: no cavity was found to hold all
   /// Of this body, where the goal's measure is all that counts.
   std::optional<double> measure;
-  /// Of the goal's conditions, in their order; empty where they are not linear.
+  /// Of the goal's conditions, in their order; empty where they are not linear, or where this body
+  /// meets them and the goal has no measure.
   std::vector<LevelBound> levels;
   double wantedLevel = 0.0; ///< of the goal
   /// For certain: no cavity does what the goal asks for, see `Goal::noneCan`.

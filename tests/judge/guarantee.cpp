@@ -468,8 +468,8 @@ double violationOf(const PropertyCase& c, const Upright& frame, const Body& body
   switch (c.options.goal) {
   case GoalKind::Stand:
     if (c.options.tippingAngle == 0.0) return 0.0;
-    return std::max(0.0, std::tan(c.options.tippingAngle * kPi / 180) * centre.z() -
-                             marginWithin(c, frame, centre.head<2>()));
+    return std::max(0.0, std::tan(c.options.tippingAngle * kPi / 180) -
+                             marginWithin(c, frame, centre.head<2>()) / centre.z());
   case GoalKind::PublishedStand:
     return standViolation(c, frame, body);
   case GoalKind::StandEmptyAndFilled:
@@ -518,8 +518,8 @@ double aboveMetacentres(const Upright& frame, const Points& points, const Vec3& 
   }
   const double most = *std::max_element(above.begin(), above.end());
   double sum = 0.0;
-  for (const double a : above) sum += std::exp(200.0 * (a - most));
-  return most + std::log(sum) / 200.0;
+  for (const double a : above) sum += std::exp(60.0 * (a - most));
+  return most + std::log(sum) / 60.0;
 }
 
 /// `points`: of the outer surface.
