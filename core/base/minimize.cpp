@@ -203,7 +203,10 @@ MinimizeResult minimize(const Problem& problem, const Vector& start,
   const auto isAnywhereFinite = [&] { return std::isfinite(scaled.best().violation); };
   nlopt::opt solver(nlopt::LD_SLSQP, static_cast<unsigned>(start.size()));
   solver.set_min_objective(ScaledProblem::objective, &scaled);
-  if (scaled.equalityCount() > 0) {
+  // More equalities than variables: there is nothing to minimise, only a way to the least
+  // violation.
+  const bool isOverdetermined = scaled.equalityCount() > start.size();
+  if (scaled.equalityCount() > 0 && !isOverdetermined) {
     solver.add_equality_mconstraint(ScaledProblem::equalities, &scaled,
                                     scaled.tolerances(scaled.equalityScales()));
   }
@@ -227,7 +230,8 @@ MinimizeResult minimize(const Problem& problem, const Vector& start,
     for (double& value : x) value = std::clamp(value, -options.range, options.range);
     double objective = 0.0;
     try {
-      stopReason = describe(solver.optimize(x, objective));
+      stopReason = isOverdetermined ? "more equalities than variables"
+                                    : describe(solver.optimize(x, objective));
     } catch (const nlopt::roundoff_limited&) {
       stopReason = "converged to rounding";
     } catch (const std::runtime_error&) {

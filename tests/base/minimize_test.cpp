@@ -183,5 +183,20 @@ TEST(Minimize, IsTheSameBitForBitTheSecondTime) {
   EXPECT_EQ(a.evaluations, b.evaluations);
 }
 
+TEST(Minimize, GoesToTheLeastViolationOfMoreEqualitiesThanVariables) {
+  // x = 0 and x = 1 at once.
+  const auto contradiction = [](const Vector& x) {
+    Evaluation e;
+    e.objective = x[0];
+    e.objectiveGradient = Vector::Ones(1);
+    e.equalities = vector({x[0], x[0] - 1.0});
+    e.equalityJacobian = Matrix::Ones(2, 1);
+    return e;
+  };
+  const MinimizeResult result = minimize(contradiction, vector({5.0}), patient());
+  EXPECT_NEAR(result.x[0], 0.5, 1e-3);
+  EXPECT_NEAR(result.violation, 0.5, 1e-3);
+}
+
 } // namespace
 } // namespace massprops::testing
