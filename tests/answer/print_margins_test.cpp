@@ -1,6 +1,7 @@
 // How far a print may be off: bodies with these errors, calculated anew from the delivered meshes.
 #include "core/base/angles.h"
 #include "core/model/contact.h"
+#include "core/model/solid.h"
 #include "core/physics/moments.h"
 #include "core/pipeline.h"
 #include "core/query/point_in_mesh.h"
@@ -19,14 +20,18 @@
 namespace massprops::testing {
 namespace {
 
+/// Of the diagonal: thick enough for errors of the walls to matter.
+constexpr double kWall = 0.02;
+
 struct Stood {
   TriangleMesh outer, inner; ///< the latter outward
   GroundContact contact;
-  double density, infill, wallError, residue;
+  double density, infill, wallError, residue, wall;
   Moments body;
 
   explicit Stood(const std::string& sample) : outer(sampleMesh(sample)) {
     Options options;
+    options.innerLowerBound = kWall * makeSolid(outer).diagonal();
     const Result result = optimizeMassProperties(outer, options);
     inner = reversed(result.inner);
     contact = groundContact(outer.vertices, {});
@@ -36,6 +41,7 @@ struct Stood {
     infill = number("infill_at_least");
     wallError = number("wall_error_at_most");
     residue = number("residue_at_most");
+    wall = number("min_wall");
   }
 
   /// Of a body's mass and first moments, in grams.
@@ -92,7 +98,31 @@ TEST_P(PrintMargins, AreWhereTheVerdictTurns) {
   EXPECT_TRUE(standsAtInfill(std::min(1.0, print.infill + 0.03))) << print.infill;
   ASSERT_GT(print.infill, 0.03);
   EXPECT_FALSE(standsAtInfill(print.infill - 0.03));
-  EXPECT_GT(print.wallError, 0.0);
+
+  // All walls too thick or too thin by as much: the cavity, moved along its vertices' normals.
+  const auto standsDisplacedBy = [&](double error) {
+    TriangleMesh displaced = print.inner;
+    Points normals = Points::Zero(displaced.vertices.rows(), 3);
+    for (Eigen::Index f = 0; f < displaced.faces.rows(); ++f) {
+      const auto at = [&](int k) {
+        return Vec3(print.inner.vertices.row(displaced.faces(f, k)).transpose());
+      };
+      const Vec3 normal = (at(1) - at(0)).cross(at(2) - at(0));
+      for (const int v : displaced.faces.row(f)) normals.row(v) += normal.transpose();
+    }
+    displaced.vertices += error * normals.rowwise().normalized();
+    return print.stands(print.density *
+                        (quadratureMoments(print.outer) - quadratureMoments(displaced)));
+  };
+  ASSERT_GT(print.wallError, 0.0);
+  for (const double share : {0.5, 0.99}) {
+    EXPECT_TRUE(standsDisplacedBy(share * print.wallError));
+    EXPECT_TRUE(standsDisplacedBy(-share * print.wallError));
+  }
+  if (print.wallError < 0.99 * print.wall) {
+    EXPECT_FALSE(standsDisplacedBy(1.02 * print.wallError) &&
+                 standsDisplacedBy(-1.02 * print.wallError));
+  }
 }
 
 } // namespace
