@@ -85,6 +85,36 @@ Index uprightFace(const Rests& rests) {
       rests.normals.begin());
 }
 
+/// Where the body rolls to from a face, downhill all the way: over the edge that the foot of its
+/// centre of mass lies farthest beyond, until it lies within a face.
+Index rolledFrom(Index face, const RollingHull& hull, const Vec3& centre, const Rests& rests) {
+  std::vector<std::vector<const RollingHull::Edge*>> edgesAt(rests.heights.size());
+  for (const RollingHull::Edge& e : hull.edges) {
+    edgesAt[static_cast<Index>(e.face)].push_back(&e);
+    edgesAt[static_cast<Index>(e.other)].push_back(&e);
+  }
+  std::vector<char> isPast(rests.heights.size(), 0); // a plane's faces may lead round in a ring
+  while (true) {
+    isPast[face] = 1;
+    const Vec3& n = rests.normals[face];
+    const Vec3 foot = rests.heights[face] * n;
+    double farthest = 0.0;
+    Index next = face;
+    for (const RollingHull::Edge* e : edgesAt[face]) {
+      const bool isOwn = static_cast<Index>(e->face) == face;
+      const Vec3 a = hull.vertices.row(isOwn ? e->from : e->to).transpose() - centre;
+      const Vec3 b = hull.vertices.row(isOwn ? e->to : e->from).transpose() - centre;
+      const double beyond = (b - a).cross(n).normalized().dot(foot - a);
+      const auto other = static_cast<Index>(isOwn ? e->other : e->face);
+      if (beyond <= farthest || isPast[other] != 0) continue;
+      farthest = beyond;
+      next = other;
+    }
+    if (next == face) return face;
+    face = next;
+  }
+}
+
 /// What water fills, by face: a pool each at first, named by its lowest face.
 class Pools {
 public:
@@ -220,12 +250,12 @@ RollingHull rollingHull(const Points& vertices) {
 
 StablePoses stablePoses(const RollingHull& hull, const Vec3& centre, double barrier) {
   const Rests rests = restsOf(hull, centre);
-  const Index upright = uprightFace(rests);
+  const Index start = rolledFrom(uprightFace(rests), hull, centre, rests);
   StablePoses poses;
   bool isSettled = false;
   const auto end = [&](Index bottom, const Pools& pools) {
     poses.rests.push_back(rests.normals[bottom]);
-    if (isSettled || pools.bottomOf(upright) != bottom) return;
+    if (isSettled || pools.bottomOf(start) != bottom) return;
     isSettled = true;
     poses.down = rests.normals[bottom];
   };

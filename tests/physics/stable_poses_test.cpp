@@ -1,6 +1,10 @@
 // Resting poses of dice, cylinders and tumblers.
 #include "core/physics/stable_poses.h"
 
+#include "core/base/angles.h"
+#include "core/model/solid.h"
+#include "core/physics/moments.h"
+#include "samples.h"
 #include "shapes.h"
 
 #include <gtest/gtest.h>
@@ -69,6 +73,19 @@ TEST(StablePoses, LeanByTheAngleThatBringsTheCentreBelowThatOfTheFoot) {
 /// Wells at `centre`, of poses more than 2° off upright.
 std::vector<HalfSpaces> wellsAt(const RollingHull& hull, const Vec3& centre) {
   return restingWells(hull, centre, kBarrier, 0.035);
+}
+
+TEST(StablePoses, RollDownhillFromUprightAndNotToTheLowestPool) {
+  // A cube on a foot that is cut off at a corner, its centre of mass beyond the foot's border: it
+  // falls onto the side that lies there, over however many triangles of the foot.
+  const TriangleMesh body = sampleMesh("box_on_corner");
+  const Moments solid = moments(body.vertices, body.faces);
+  const Vec3 centre = solid.segment<3>(1) / solid[0];
+  const RollingHull hull = rollingHull(body.vertices);
+  const StablePoses poses = stablePoses(hull, centre, 5e-4 * makeSolid(body).diagonal());
+  EXPECT_EQ(poses.rests.size(), 6U);
+  const double tilt = std::acos(-poses.down.z()) * kDegrees;
+  EXPECT_NEAR(tilt, 49.2, 0.5); // as a simulation falls
 }
 
 TEST(RestingWells, OfACubesSideAreAsWideAsTheSide) {
