@@ -14,8 +14,8 @@ namespace {
 
 /// All is calculated for material of one density; sparse infill lets the walls have another one
 /// inside than at their skins.
-constexpr const char* kPrintAs = "dense: 100 % infill, or walls made of perimeters throughout; at "
-                                 "sparse infill the verdict does not hold";
+constexpr const char* kPrintAs = "dense: 100 % infill, or walls made of perimeters throughout";
+constexpr const char* kOtherwise = "; with less than infill_at_least the verdict does not hold";
 
 /// A body in the model's own coordinates and in grams.
 MassProperties inModel(const Moments& massMoments, const Frame& frame, double density) {
@@ -149,6 +149,21 @@ int solidVertices(const CavityTask& task, const CavityResult& cavity) {
   return static_cast<int>(std::count(mark.begin(), mark.end(), 1));
 }
 
+/// What the answer cost.
+void addEffort(const CavityResult& cavity, const Stages& stages, Report& report) {
+  report.add("stop_reason", cavity.stopReason);
+  report.add("rounds", cavity.effort.rounds);
+  report.add("evaluations", cavity.effort.evaluations);
+  report.add("seconds_check", stages.secondsCheck);
+  report.add("seconds_copy", stages.secondsCopy);
+  report.add("seconds_skeleton", stages.secondsSkeleton);
+  report.add("seconds_basis", stages.secondsBasis);
+  report.add("seconds_limit", stages.secondsLimit);
+  report.add("seconds_optimization", cavity.effort.secondsOptimization);
+  report.add("seconds_inspection", cavity.effort.secondsInspection);
+  if (stages.margins) report.add("seconds_margins", stages.secondsMargins);
+}
+
 } // namespace
 
 Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Verdicts& verdicts,
@@ -188,7 +203,7 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Ve
     addBest(task, verdicts, report);
     addCertificates(posed.frame, stages, report);
   }
-  report.add("print_as", std::string(kPrintAs));
+  report.add("print_as", std::string(kPrintAs) + (stages.margins ? kOtherwise : ""));
   if (stages.margins) {
     report.add("infill_at_least", stages.margins->infill);
     report.add("wall_error_at_most", stages.margins->wall * posed.frame.length);
@@ -204,17 +219,7 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Ve
   report.add("skeleton_failures", stages.skeletonFailures);
   if (posed.open) report.add("openings", posed.open->openings);
   report.add("solid_vertices", solidVertices(task, cavity));
-  report.add("stop_reason", cavity.stopReason);
-  report.add("rounds", cavity.effort.rounds);
-  report.add("evaluations", cavity.effort.evaluations);
-  report.add("seconds_check", stages.secondsCheck);
-  report.add("seconds_copy", stages.secondsCopy);
-  report.add("seconds_skeleton", stages.secondsSkeleton);
-  report.add("seconds_basis", stages.secondsBasis);
-  report.add("seconds_limit", stages.secondsLimit);
-  report.add("seconds_optimization", cavity.effort.secondsOptimization);
-  report.add("seconds_inspection", cavity.effort.secondsInspection);
-  if (stages.margins) report.add("seconds_margins", stages.secondsMargins);
+  addEffort(cavity, stages, report);
   return report;
 }
 

@@ -5,11 +5,44 @@
 
 namespace massprops {
 
+namespace {
+
+void require(bool holds, const std::string& sentence) {
+  if (!holds) throw InvalidInput(sentence);
+}
+
+bool finite(double value) {
+  return std::isfinite(value);
+}
+
+/// What the body is made of, and what only some goals need.
+void requireSensibleWishes(const Options& options) {
+  require(finite(options.density) && options.density > 0.0,
+          "density must be greater than 0 g/cm³; PLA has 1.24.");
+  require(finite(options.fillDensity) && options.fillDensity >= 0.0,
+          "fill_density must be 0 (an empty cavity) or positive.");
+  require(options.goal != GoalKind::StandEmptyAndFilled || options.fillDensity > 0.0,
+          "The goal Stand empty and filled needs fill_density, the density of what will be in the "
+          "cavity: 1 for water.");
+  require(!options.pivot || options.pivot->allFinite(),
+          "pivot_x, pivot_y and pivot_z must be coordinates of a point.");
+  require(finite(options.spinSpeed) && options.spinSpeed > 0.0,
+          "spin_speed must be greater than 0 rpm; thumb and finger reach 1000.");
+  require(options.waterLevel > 0.0 && options.waterLevel <= 1.0,
+          "water_level is a share of the model's height: give a value above 0 and at most 1 (under "
+          "water).");
+  require(finite(options.waterDensity) && options.waterDensity > 0.0,
+          "water_density must be greater than 0 g/cm³; fresh water has 1.");
+  require(finite(options.targetMass) && options.targetMass >= 0.0,
+          "target_mass must be 0 (as light as possible) or a mass in grams.");
+  require(options.tippingAngle >= 0.0 && options.tippingAngle < 90.0,
+          "tipping_angle must be 0 (as hard to tip over as possible) or an angle below 90 degrees; "
+          "10 suits most models.");
+}
+
+} // namespace
+
 void requireSensible(const Options& options, Eigen::Index vertexCount, double diagonal) {
-  const auto require = [](bool holds, const std::string& sentence) {
-    if (!holds) throw InvalidInput(sentence);
-  };
-  const auto finite = [](double value) { return std::isfinite(value); };
   require(options.basisSize >= 1, "basis_k is " + std::to_string(options.basisSize) +
                                       ": give at least 1; 36 suits most models.");
   require(options.basisSize < vertexCount,
@@ -46,27 +79,7 @@ void requireSensible(const Options& options, Eigen::Index vertexCount, double di
        {w.volume, w.centerOfMass, w.inertia, w.smoothness, w.constraints, w.outer}) {
     require(finite(weight) && weight >= 0.0, "opt_weight_1 to opt_weight_6 must be 0 or positive.");
   }
-  require(finite(options.density) && options.density > 0.0,
-          "density must be greater than 0 g/cm³; PLA has 1.24.");
-  require(finite(options.fillDensity) && options.fillDensity >= 0.0,
-          "fill_density must be 0 (an empty cavity) or positive.");
-  require(options.goal != GoalKind::StandEmptyAndFilled || options.fillDensity > 0.0,
-          "The goal Stand empty and filled needs fill_density, the density of what will be in the "
-          "cavity: 1 for water.");
-  require(!options.pivot || options.pivot->allFinite(),
-          "pivot_x, pivot_y and pivot_z must be coordinates of a point.");
-  require(finite(options.spinSpeed) && options.spinSpeed > 0.0,
-          "spin_speed must be greater than 0 rpm; thumb and finger reach 1000.");
-  require(options.waterLevel > 0.0 && options.waterLevel <= 1.0,
-          "water_level is a share of the model's height: give a value above 0 and at most 1 (under "
-          "water).");
-  require(finite(options.waterDensity) && options.waterDensity > 0.0,
-          "water_density must be greater than 0 g/cm³; fresh water has 1.");
-  require(finite(options.targetMass) && options.targetMass >= 0.0,
-          "target_mass must be 0 (as light as possible) or a mass in grams.");
-  require(options.tippingAngle >= 0.0 && options.tippingAngle < 90.0,
-          "tipping_angle must be 0 (as hard to tip over as possible) or an angle below 90 degrees; "
-          "10 suits most models.");
+  requireSensibleWishes(options);
 }
 
 void requireSensibleForShell(const Options& options) {
