@@ -166,7 +166,7 @@ LevelBound greatestLevel(const LinearConditions& conditions, const Moments& soli
                          double fillDensity, const AdmissibleCells& cells) {
   constexpr int kMostConditions = 16;
   Relaxations relaxations(conditions, solid, fillDensity, cells);
-  Eigen::Index weakest;
+  Eigen::Index weakest = 0;
   levels(conditions, solid).minCoeff(&weakest);
   Mixture mixture(conditions.atZero.rows(), weakest);
   for (int count = 1; count <= kMostConditions; ++count) {
