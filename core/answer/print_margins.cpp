@@ -53,16 +53,6 @@ Moments deepMaterial(const CavityTask& task, const CavityResult& cavity, double 
   return cells.rows() > 0 ? Moments(cells.colwise().sum().transpose()) : Moments(Moments::Zero());
 }
 
-/// Unit normals of the cavity's vertices, away from the cavity; means of the faces' by their areas.
-Points vertexNormals(const Points& vertices, const Faces& faces) {
-  Points normals = Points::Zero(vertices.rows(), 3);
-  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
-    const Vec3 normal = areaNormal(vertices, faces, f);
-    for (const int v : faces.row(f)) normals.row(v) += normal.transpose();
-  }
-  return normals.rowwise().normalized();
-}
-
 /// Vertices of the cavity that lie farthest in directions all round: linear functionals, and with
 /// them the harm that a lump does, are greatest at one of these, up to the directions between.
 std::vector<Vec3> extremePoints(const CavityResult& cavity) {

@@ -1,9 +1,30 @@
 #include "core/base/triangle.h"
 
+#include "core/base/angles.h"
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace massprops {
+
+Points vertexNormals(const Points& vertices, const Faces& faces) {
+  Points normals = Points::Zero(vertices.rows(), 3);
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    const Vec3 normal = areaNormal(vertices, faces, f);
+    for (const int v : faces.row(f)) normals.row(v) += normal.transpose();
+  }
+  return normals.rowwise().normalized();
+}
+
+double leastAngle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double ab = (b - a).squaredNorm();
+  const double bc = (c - b).squaredNorm();
+  const double ca = (a - c).squaredNorm();
+  // Opposite to the shortest side: its cosine times the two others.
+  const double product = 0.5 * (ab + bc + ca) - std::min({ab, bc, ca});
+  return std::atan2(areaNormal(a, b, c).norm(), product) * kDegrees;
+}
 
 Vec3 nearestWeights(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a;

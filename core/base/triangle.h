@@ -17,6 +17,13 @@ inline Vec3 areaNormal(const Points& vertices, const Faces& faces, Eigen::Index 
                     vertices.row(faces(f, 2)).transpose());
 }
 
+/// Unit normals of a surface's vertices, outward: means of the faces' by their areas. n×3; 0 where
+/// there is no face.
+Points vertexNormals(const Points& vertices, const Faces& faces);
+
+/// Degrees; 0 where the triangle has no area.
+double leastAngle(const Vec3& a, const Vec3& b, const Vec3& c);
+
 /// The point of the triangle (a, b, c) next to p, by its weights at the corners. [Eri05,
 /// Sec. 5.1.5]
 Vec3 nearestWeights(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);

@@ -57,8 +57,8 @@ struct Quadric {
 /// The surface while its edges collapse. Face f has the half-edges 3f, 3f+1, 3f+2.
 class QuadricDecimation {
 public:
-  QuadricDecimation(const Points& vertices, const Faces& faces)
-      : x_(vertices), corner_(faces.data(), faces.data() + faces.size()),
+  QuadricDecimation(const Points& vertices, const Faces& faces, double leastAngle)
+      : x_(vertices), leastAngle_(leastAngle), corner_(faces.data(), faces.data() + faces.size()),
         opposite_(oppositeHalfEdges(vertices.rows(), faces)),
         outgoing_(static_cast<std::size_t>(vertices.rows()), -1),
         collapsedOnto_(static_cast<std::size_t>(vertices.rows())),
@@ -255,6 +255,9 @@ private:
       const double areas = before.norm() * after.norm();
       if (!(before.dot(after) > kLeastTurnCosine * areas)) return false;
       if (!(after.norm() > kLeastQuality * longest) && after.norm() < before.norm()) return false;
+      if (leastAngle_ <= 0.0) continue;
+      const double angle = leastAngle(target, pb, pc);
+      if (angle < leastAngle_ && angle < leastAngle(from, pb, pc)) return false;
     }
     return true;
   }
@@ -309,6 +312,7 @@ private:
   }
 
   const Points& x_;
+  double leastAngle_;
   std::vector<int> corner_, opposite_, outgoing_;
   std::vector<int> collapsedOnto_; ///< a vertex onto itself while it is there
   std::vector<Quadric> quadrics_;
@@ -327,7 +331,7 @@ bool isMuchLess(Eigen::Index size, const Points& vertices) {
 DecimatedMesh decimated(const Points& vertices, const Faces& faces,
                         const DecimationTarget& target) {
   if (isMuchLess(target.least, vertices)) {
-    QuadricDecimation surface(vertices, faces);
+    QuadricDecimation surface(vertices, faces, target.leastAngle);
     surface.reduceTo(target);
     if (isMuchLess(surface.size(), vertices)) return surface.copy();
   }

@@ -13,6 +13,7 @@ namespace massprops {
 struct DecimationTarget {
   Eigen::Index most, least;
   double distance;
+  double leastAngle = 0.0; ///< degrees; no triangle gets a smaller one that had a larger
 };
 
 struct DecimatedMesh {

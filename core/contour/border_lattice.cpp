@@ -1,0 +1,273 @@
+#include "core/contour/border_lattice.h"
+
+#include "core/base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace massprops {
+namespace {
+
+constexpr std::uint64_t kFree = ~std::uint64_t{0};
+
+std::uint64_t keyOf(const Place& place) {
+  constexpr int kShift = 1 << 19; // places may be negative
+  const auto part = [](int i) { return static_cast<std::uint64_t>(i + kShift); };
+  return part(place.x()) << 42 | part(place.y()) << 21 | part(place.z());
+}
+
+Place cornerStep(int i) {
+  return {i & 1, i >> 1 & 1, i >> 2};
+}
+
+struct Cube {
+  Place place;
+  bool isDeep; ///< so far behind the walls that only the quadric matters
+};
+
+/// Halves cubes that the border may pass through, down to the wanted size.
+class BorderSearch {
+public:
+  static constexpr int kTopLevel = 4;
+
+  BorderSearch(const Region& region, const Vec3& origin, double edge, std::vector<Cube>& found)
+      : region_(region), probe_(region), origin_(origin), edge_(edge), found_(found) {}
+
+  void visit(const Place& place, int level, bool isDeep) {
+    const double size = edge_ * (1 << level);
+    const double radius = 0.5 * std::sqrt(3.0) * size;
+    const Vec3 centre = origin_ + edge_ * place.cast<double>() + Vec3::Constant(0.5 * size);
+    if (!isDeep) {
+      const double value = probe_.at(centre, radius).value;
+      if (value <= -radius) return;
+      isDeep = value >= radius;
+    }
+    const Side side = region_.quadric ? sideOfCut(region_, centre, radius) : Side::Positive;
+    if (side == Side::Negative || (isDeep && side == Side::Positive)) return;
+    if (level == 0) {
+      found_.push_back({place, isDeep});
+      return;
+    }
+    for (int i = 0; i < 8; ++i)
+      visit(place + (1 << (level - 1)) * cornerStep(i), level - 1, isDeep);
+  }
+
+private:
+  const Region& region_;
+  InsetProbe probe_;
+  Vec3 origin_;
+  double edge_;
+  std::vector<Cube>& found_;
+};
+
+std::vector<Cube> borderCubes(const Region& region, const Vec3& origin, const Vec3& extent,
+                              double edge) {
+  const double step = edge * (1 << BorderSearch::kTopLevel);
+  const Place counts = (extent / step).array().ceil().max(1.0).cast<int>();
+  std::vector<std::vector<Cube>> parts(static_cast<std::size_t>(counts.prod()));
+  forChunks(counts.prod(), 1, [&](const Chunk& chunk) {
+    const int n = static_cast<int>(chunk.number);
+    const Place place(n % counts.x(), n / counts.x() % counts.y(), n / (counts.x() * counts.y()));
+    BorderSearch(region, origin, edge, parts[static_cast<std::size_t>(n)])
+        .visit(place * (1 << BorderSearch::kTopLevel), BorderSearch::kTopLevel, false);
+  });
+  std::vector<Cube> cubes;
+  for (const auto& part : parts) cubes.insert(cubes.end(), part.begin(), part.end());
+  return cubes;
+}
+
+/// Whether the marked corners of a cube are connected along its edges, and the others, too.
+bool isCutOnce(unsigned marked) {
+  for (const unsigned side : {marked, ~marked & 255U}) {
+    unsigned reached = side & (~side + 1U);
+    for (unsigned before = 0; reached != before;) {
+      before = reached;
+      for (unsigned i = 0; i < 8; ++i) {
+        if ((before >> i & 1U) == 0) continue;
+        for (const unsigned step : {1U, 2U, 4U}) reached |= 1U << (i ^ step) & side;
+      }
+    }
+    if (reached != side) return false;
+  }
+  return true;
+}
+
+/// By the corners inside.
+const std::array<bool, 256>& cutOnce() {
+  static const std::array<bool, 256> table = [] {
+    std::array<bool, 256> result{};
+    for (unsigned marked = 0; marked < 256; ++marked) result[marked] = isCutOnce(marked);
+    return result;
+  }();
+  return table;
+}
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+int addCube(const Place& place, BorderLattice& lattice) {
+  const int number = static_cast<int>(lattice.cubes.size());
+  std::array<int, 8> corners{};
+  for (int i = 0; i < 8; ++i) {
+    const Place cornerPlace = place + cornerStep(i);
+    const int fresh = static_cast<int>(lattice.corners.size());
+    corners[at(i)] = lattice.cornerAt.findOrAdd(cornerPlace, fresh);
+    if (corners[at(i)] == fresh) lattice.corners.push_back({cornerPlace, true, false, {}, {}, {}});
+  }
+  lattice.cubes.push_back(corners);
+  lattice.cubeAt.findOrAdd(place, number);
+  return number;
+}
+
+/// Two surfaces at an acute angle are kept apart: their triangles would cross each other where the
+/// region between them ends.
+std::optional<Sample> bluntAt(const Corner& corner, double edge) {
+  constexpr double kAcute = -0.75;
+  constexpr double kApart = 0.4; // edges
+  if (!corner.inset || !corner.cut) return {};
+  const Vec3 slope = corner.inset->slope + corner.cut->slope;
+  const double steepness = slope.norm();
+  if (corner.inset->slope.dot(corner.cut->slope) > kAcute || steepness < 1e-9) return {};
+  const double value = corner.inset->value + corner.cut->value - kApart * edge;
+  return Sample{value / steepness, slope / steepness};
+}
+
+/// `isNearWall`: for every corner whether it has a cube that is not deep.
+void sample(const Region& region, const std::vector<char>& isNearWall, BorderLattice& lattice) {
+  constexpr Eigen::Index kRun = 512;
+  constexpr double kLeastValue = 1e-6;
+  forChunks(static_cast<Eigen::Index>(lattice.corners.size()), kRun, [&](const Chunk& chunk) {
+    InsetProbe probe(region);
+    for (auto c = static_cast<int>(chunk.begin); c < chunk.end; ++c) {
+      Corner& corner = lattice.corners[at(c)];
+      const Vec3 x = lattice.positionOf(c);
+      if (isNearWall[at(c)] != 0) corner.inset = probe.at(x, 2.0 * lattice.edge);
+      if (region.quadric) corner.cut = cutAt(region, x);
+      corner.blunt = bluntAt(corner, lattice.edge);
+      corner.isInside = corner.value() > kLeastValue * lattice.edge;
+    }
+  });
+}
+
+void takeOut(Corner& corner) {
+  corner.isInside = false;
+  corner.isTakenOut = true;
+}
+
+/// Of a cube that is cut more than once the least of the corners inside goes out, which may spoil
+/// the cubes around. `wild`: cubes to look at.
+void tame(std::vector<int> wild, BorderLattice& lattice) {
+  while (!wild.empty()) {
+    const int cube = wild.back();
+    wild.pop_back();
+    if (cutOnce()[lattice.cornersInside(cube)]) continue;
+    Corner* least = nullptr;
+    for (const int c : lattice.cubes[at(cube)]) {
+      Corner& corner = lattice.corners[at(c)];
+      if (corner.isInside && (least == nullptr || corner.value() < least->value())) least = &corner;
+    }
+    takeOut(*least);
+    const Place place = least->place;
+    for (int i = 0; i < 8; ++i) {
+      const int known = lattice.cubeAt.find(place - cornerStep(i));
+      wild.push_back(known >= 0 ? known : addCube(place - cornerStep(i), lattice));
+    }
+  }
+}
+
+} // namespace
+
+PlaceTable::PlaceTable(std::size_t expected) {
+  std::size_t slots = 16;
+  while (slots < 4 * expected) slots *= 2;
+  entries_.assign(slots, {kFree, -1});
+}
+
+std::size_t PlaceTable::slotOf(std::uint64_t key) const {
+  std::uint64_t hash = key;
+  hash ^= hash >> 33;
+  hash *= 0xff51afd7ed558ccdULL; // the finalizer of MurmurHash3
+  hash ^= hash >> 33;
+  std::size_t slot = hash & (entries_.size() - 1);
+  while (entries_[slot].key != key && entries_[slot].key != kFree) {
+    slot = (slot + 1) & (entries_.size() - 1);
+  }
+  return slot;
+}
+
+int PlaceTable::find(const Place& place) const {
+  return entries_[slotOf(keyOf(place))].number;
+}
+
+int PlaceTable::findOrAdd(const Place& place, int fresh) {
+  const std::uint64_t key = keyOf(place);
+  Entry& entry = entries_[slotOf(key)];
+  if (entry.key == key) return entry.number;
+  entry = {key, fresh};
+  if (2 * ++size_ > entries_.size()) {
+    const std::vector<Entry> full = std::exchange(entries_, {});
+    entries_.assign(2 * full.size(), {kFree, -1});
+    for (const Entry& e : full) {
+      if (e.key != kFree) entries_[slotOf(e.key)] = e;
+    }
+  }
+  return fresh;
+}
+
+double Corner::value() const {
+  constexpr double kFar = std::numeric_limits<double>::max();
+  return std::min(
+      {inset ? inset->value : kFar, cut ? cut->value : kFar, blunt ? blunt->value : kFar});
+}
+
+unsigned BorderLattice::cornersInside(int cube) const {
+  unsigned marked = 0;
+  const auto& corners_ = cubes[static_cast<std::size_t>(cube)];
+  for (unsigned i = 0; i < 8; ++i) {
+    if (corners[static_cast<std::size_t>(corners_[i])].isInside) marked |= 1U << i;
+  }
+  return marked;
+}
+
+BorderLattice borderLattice(const Region& region, double edge) {
+  BorderLattice lattice;
+  lattice.origin = region.surface.vertices().colwise().minCoeff().transpose();
+  lattice.edge = edge;
+  const Vec3 high = region.surface.vertices().colwise().maxCoeff().transpose();
+  const std::vector<Cube> cubes = borderCubes(region, lattice.origin, high - lattice.origin, edge);
+  lattice.cubeAt = lattice.cornerAt = PlaceTable(cubes.size());
+  std::vector<char> isNearWall;
+  std::vector<int> all;
+  for (const Cube& cube : cubes) {
+    all.push_back(addCube(cube.place, lattice));
+    isNearWall.resize(lattice.corners.size(), 0);
+    if (cube.isDeep) continue;
+    for (const int c : lattice.cubes.back()) isNearWall[at(c)] = 1;
+  }
+  sample(region, isNearWall, lattice);
+  tame(std::move(all), lattice);
+  return lattice;
+}
+
+void takeOut(const std::vector<Vec3>& points, BorderLattice& lattice) {
+  std::vector<int> around;
+  for (const Vec3& x : points) {
+    const Place place = ((x - lattice.origin) / lattice.edge).array().floor().cast<int>().matrix();
+    for (int i = 0; i < 8; ++i) {
+      const int c = lattice.cornerAt.find(place + cornerStep(i));
+      if (c < 0 || !lattice.corners[at(c)].isInside) continue;
+      takeOut(lattice.corners[at(c)]);
+      for (int j = 0; j < 8; ++j) {
+        const Place cube = lattice.corners[at(c)].place - cornerStep(j);
+        const int known = lattice.cubeAt.find(cube);
+        around.push_back(known >= 0 ? known : addCube(cube, lattice));
+      }
+    }
+  }
+  tame(std::move(around), lattice);
+}
+
+} // namespace massprops

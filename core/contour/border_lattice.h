@@ -1,0 +1,75 @@
+// Small cubes along the border of a region.
+#pragma once
+
+#include "core/contour/region.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace massprops {
+
+using Place = Eigen::Vector3i;
+
+/// Places with numbers: a hash table with open addresses.
+class PlaceTable {
+public:
+  explicit PlaceTable(std::size_t expected);
+  /// −1: not there.
+  int find(const Place& place) const;
+  /// The number of the place, `fresh` if it has none yet.
+  int findOrAdd(const Place& place, int fresh);
+
+private:
+  struct Entry {
+    std::uint64_t key;
+    int number;
+  };
+  std::size_t slotOf(std::uint64_t key) const;
+  std::vector<Entry> entries_;
+  std::size_t size_ = 0;
+};
+
+/// A corner of cubes.
+struct Corner {
+  Place place;
+  bool isInside = false;
+  /// It was inside, but the cubes around it were too wild so.
+  bool isTakenOut = false;
+  /// Empty: so far inside that it does not matter.
+  std::optional<Sample> inset, cut;
+  /// Where inset and cut come together at an acute angle: what cuts the edge between them off.
+  std::optional<Sample> blunt;
+
+  /// Of the region, about a signed distance; large where both are empty.
+  double value() const;
+};
+
+/// All cubes of one size that the border of the region may pass through. In each the corners that
+/// are inside are connected along its edges, and so are those that are not: the border cuts it in
+/// one piece that has the shape of a disc.
+struct BorderLattice {
+  Vec3 origin = Vec3::Zero();
+  double edge = 0.0;
+  std::vector<Corner> corners;
+  /// Corner i of a cube is the one at its place plus (i & 1, i >> 1 & 1, i >> 2).
+  std::vector<std::array<int, 8>> cubes;
+  PlaceTable cubeAt{0}, cornerAt{0};
+
+  Vec3 positionOf(int corner) const {
+    return origin + edge * corners[static_cast<std::size_t>(corner)].place.cast<double>();
+  }
+  /// A bit for each corner of a cube that is inside.
+  unsigned cornersInside(int cube) const;
+};
+
+/// Cubes of the given edge. Where inset and cut are nearer to each other than a share of it, and
+/// wherever too little is inside for cubes of that size, something is taken out of the region;
+/// never put into it.
+BorderLattice borderLattice(const Region& region, double edge);
+
+/// Takes the corners of the cubes around these points out of the region, too.
+void takeOut(const std::vector<Vec3>& points, BorderLattice& lattice);
+
+} // namespace massprops

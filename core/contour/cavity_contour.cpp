@@ -1,0 +1,130 @@
+#include "core/contour/cavity_contour.h"
+
+#include "core/base/triangle.h"
+#include "core/contour/projection.h"
+#include "core/contour/slivers.h"
+#include "core/contour/wall_keeping.h"
+#include "core/mesh/components.h"
+#include "core/mesh/decimation.h"
+#include "core/mesh/signed_volume.h"
+#include "core/query/self_intersection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace massprops {
+namespace {
+
+/// More than the wanted wall: what rounding takes.
+constexpr double kMargin = 1e-5;
+/// No ball of this radius fits into what is too narrow; in walls.
+constexpr double kNarrow = 0.5;
+/// How far from the middle of such a ball the cavity goes, in its radii: a cube's corner, too, is
+/// reached.
+constexpr double kReach = 1.8;
+
+double areaOf(const TriangleTree& surface) {
+  double area = 0.0;
+  for (Eigen::Index f = 0; f < surface.faces().rows(); ++f) {
+    area += 0.5 * areaNormal(surface.vertices(), surface.faces(), f).norm();
+  }
+  return area;
+}
+
+Contour select(const Contour& contour, const Faces& faces) {
+  Submesh part = submesh(contour.mesh.vertices, faces);
+  std::vector<On> on;
+  on.reserve(part.vertexOf.size());
+  for (const int v : part.vertexOf) on.push_back(contour.on[static_cast<std::size_t>(v)]);
+  return {std::move(part.mesh), std::move(on)};
+}
+
+/// Without dust, and without what would lie loose in the cavity.
+Contour withoutCrumbs(const Contour& contour, double leastVolume) {
+  const Points& vertices = contour.mesh.vertices;
+  std::vector<Faces> kept;
+  Eigen::Index count = 0;
+  for (Faces& part : connectedComponents(vertices.rows(), contour.mesh.faces)) {
+    if (signedVolume(vertices, part) < leastVolume) continue;
+    count += part.rows();
+    kept.push_back(std::move(part));
+  }
+  Faces faces(count, 3);
+  Eigen::Index row = 0;
+  for (const Faces& part : kept) {
+    faces.middleRows(row, part.rows()) = part;
+    row += part.rows();
+  }
+  return select(contour, faces);
+}
+
+Contour thinnedOut(const Contour& contour, double distance) {
+  constexpr double kLeastAngle = 15.0;
+  const Points& vertices = contour.mesh.vertices;
+  DecimatedMesh fewer =
+      decimated(vertices, contour.mesh.faces, {vertices.rows(), 0, distance, kLeastAngle});
+  std::vector<On> on;
+  on.reserve(fewer.vertexOf.size());
+  for (const int v : fewer.vertexOf) on.push_back(contour.on[static_cast<std::size_t>(v)]);
+  return {std::move(fewer.mesh), std::move(on)};
+}
+
+/// Few triangles, none of them a sliver, on the border.
+Contour smoothed(const Region& region, double edge, Contour contour) {
+  project(region, edge, contour);
+  constexpr double kFlat = 0.002; // walls
+  contour = thinnedOut(contour, kFlat * region.wall);
+  constexpr double kSliver = 8.0; // degrees; a target that leaves room to what follows
+  removeSlivers(kSliver, contour);
+  return contour;
+}
+
+/// Where triangles come too near to the surface or cross each other.
+std::vector<Vec3> troubles(const TriangleTree& surface, double wall, Contour& contour) {
+  TriangleMesh& mesh = contour.mesh;
+  std::vector<Vec3> points;
+  for (const int v : keepWall(surface, wall, mesh))
+    points.push_back(mesh.vertices.row(v).transpose());
+  for (const int f : selfIntersectingFaces(mesh.vertices, mesh.faces)) {
+    for (const int v : mesh.faces.row(f)) points.push_back(mesh.vertices.row(v).transpose());
+  }
+  return points;
+}
+
+} // namespace
+
+std::optional<CavityContour> cavityContour(const TriangleTree& surface, double wall,
+                                           const std::optional<Moments>& quadric, double cubes) {
+  // A border of area A passes through about 1.5 A/h² cubes.
+  constexpr double kCubesPerSquare = 1.5;
+  constexpr double kLeastEdge = 1.0 / 1000.0;
+  const double edge = std::max(std::sqrt(kCubesPerSquare * areaOf(surface) / cubes), kLeastEdge);
+  const double kept = (1.0 + kMargin) * wall;
+  const double narrow = kNarrow * wall;
+  constexpr double kCoarser = 1.4; // nobody sees it
+  const double deepEdge = kCoarser * edge;
+  const TriangleMesh deepBorder =
+      dualContour(borderLattice({surface, kept + narrow}, deepEdge)).mesh;
+  if (deepBorder.faces.rows() == 0) return CavityContour{{}, edge};
+  const TriangleTree deepTree(deepBorder.vertices, deepBorder.faces);
+  const DeepPart deep{deepTree, kept + narrow + 2.0 * deepEdge, kReach * narrow};
+  const double leastVolume = std::pow(wall, 3);
+  const Region region{surface, kept, &deep, quadric};
+  BorderLattice lattice = borderLattice(region, edge);
+  // What the cubes are too large for becomes solid.
+  constexpr int kRounds = 8;
+  for (int round = 0; round < kRounds; ++round) {
+    const Contour raw = withoutCrumbs(dualContour(lattice), leastVolume);
+    if (raw.mesh.faces.rows() == 0) return CavityContour{{}, edge};
+    Contour contour = smoothed(region, edge, raw);
+    const std::vector<Vec3> points = troubles(surface, kept, contour);
+
+    if (points.empty()) return CavityContour{std::move(contour), edge};
+    takeOut(points, lattice);
+  }
+  return {};
+}
+
+} // namespace massprops

@@ -1,0 +1,75 @@
+#include "core/contour/region.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace massprops {
+namespace {
+
+constexpr double kTiny = 1e-300;
+
+struct QuadricAt {
+  double value;
+  Vec3 gradient;
+};
+
+QuadricAt quadricAt(const Moments& q, const Vec3& x) {
+  Vec3 linear(q[1], q[2], q[3]);
+  Mat3 halfHessian;
+  halfHessian << q[4], 0.5 * q[7], 0.5 * q[9], 0.5 * q[7], q[5], 0.5 * q[8], 0.5 * q[9], 0.5 * q[8],
+      q[6];
+  const Vec3 hx = halfHessian * x;
+  return {q[0] + linear.dot(x) + x.dot(hx), linear + 2.0 * hx};
+}
+
+/// Largest second derivative along any direction, or more.
+double curvatureOf(const Moments& q) {
+  return 2.0 * std::sqrt(q.segment<3>(4).squaredNorm() + 0.5 * q.tail<3>().squaredNorm());
+}
+
+} // namespace
+
+Sample cutAt(const Region& region, const Vec3& x) {
+  const QuadricAt q = quadricAt(*region.quadric, x);
+  const double steepness = std::max(q.gradient.norm(), kTiny);
+  return {q.value / steepness, q.gradient / steepness};
+}
+
+Side sideOfCut(const Region& region, const Vec3& x, double radius) {
+  const QuadricAt q = quadricAt(*region.quadric, x);
+  const double change = radius * (q.gradient.norm() + 0.5 * radius * curvatureOf(*region.quadric));
+  return std::abs(q.value) <= change ? Side::Both : q.value > 0.0 ? Side::Positive : Side::Negative;
+}
+
+InsetProbe::InsetProbe(const Region& region) : region_(region), inside_(region.surface) {
+  if (region.deep != nullptr) insideDeep_.emplace(region.deep->border);
+}
+
+bool InsetProbe::isInside(const Vec3& x) const {
+  const bool isNearLast = (x - last_.centre).squaredNorm() < last_.radius * last_.radius;
+  return isNearLast ? last_.isInside : inside_.contains(x, nearest_);
+}
+
+Sample InsetProbe::at(const Vec3& x, double horizon) {
+  const DeepPart* deep = region_.deep;
+  const double exact = (deep != nullptr ? deep->depth : region_.wall) + horizon;
+  nearest_ = region_.surface.nearest(x, std::numeric_limits<double>::infinity(), nearest_.face,
+                                     exact * exact);
+  const double distance = std::sqrt(nearest_.squaredDistance);
+  last_ = {x, distance, isInside(x)};
+  const double sign = last_.isInside ? 1.0 : -1.0;
+  const double depth = sign * distance;
+  const Sample inset{depth - region_.wall, sign * (x - nearest_.point) / std::max(distance, kTiny)};
+  if (deep == nullptr || depth >= deep->depth || inset.value <= -horizon) return inset;
+  const double farthest = deep->reach + horizon;
+  nearestDeep_ = deep->border.nearest(x, farthest * farthest, nearestDeep_.face);
+  if (nearestDeep_.face < 0) {
+    return insideDeep_->contains(x) ? inset : Sample{std::min(inset.value, -horizon), inset.slope};
+  }
+  const double away = std::sqrt(nearestDeep_.squaredDistance);
+  if (deep->reach - away >= inset.value || insideDeep_->contains(x, nearestDeep_)) return inset;
+  return {deep->reach - away, (nearestDeep_.point - x) / std::max(away, kTiny)};
+}
+
+} // namespace massprops

@@ -1,0 +1,66 @@
+// The points that may be hollow, as the positive side of a function.
+#pragma once
+
+#include "core/physics/moments.h"
+#include "core/query/point_in_mesh.h"
+#include "core/query/triangle_tree.h"
+
+#include <optional>
+
+namespace massprops {
+
+/// The widest places of a region: about what lies at least a depth behind the outer surface.
+struct DeepPart {
+  const TriangleTree& border; ///< closed, outward
+  double depth;               ///< behind which everything certainly belongs to it
+  double reach;               ///< no point of the region is farther from the deep part
+};
+
+/// Points at least a wall behind the surface, not farther from the deep part than its reach, on the
+/// positive side of the quadric (1, x, y, z, xx, yy, zz, xy, yz, zx)·quadric. Working frame.
+struct Region {
+  const TriangleTree& surface; ///< closed, outward
+  double wall;
+  const DeepPart* deep = nullptr;      ///< null: at any distance
+  std::optional<Moments> quadric = {}; ///< empty: on both sides
+};
+
+/// A function near a point, positive inside, its slope a unit vector: about a signed distance.
+struct Sample {
+  double value;
+  Vec3 slope;
+};
+
+/// Of the quadric, in lengths. \pre the region has one
+Sample cutAt(const Region& region, const Vec3& x);
+
+/// The sign of the quadric within `radius` of x; Both where it may vanish there.
+enum class Side { Positive, Negative, Both };
+Side sideOfCut(const Region& region, const Vec3& x, double radius);
+
+/// Samples what the walls leave, quadric apart, at points one after the other; it is quick where
+/// they are near each other.
+class InsetProbe {
+public:
+  explicit InsetProbe(const Region& region);
+
+  /// Exact between −`horizon` and `horizon`; beyond it too far from 0 by a twentieth at most, or
+  /// ±`horizon`.
+  Sample at(const Vec3& x, double horizon);
+
+private:
+  bool isInside(const Vec3& x) const;
+
+  const Region& region_;
+  PointInMesh inside_;
+  std::optional<PointInMesh> insideDeep_;
+  TriangleTree::Hit nearest_, nearestDeep_;
+  /// Around the last point; the surface does not come into it, so that all of it is on one side.
+  struct Ball {
+    Vec3 centre = Vec3::Zero();
+    double radius = 0.0;
+    bool isInside = false;
+  } last_;
+};
+
+} // namespace massprops

@@ -1,0 +1,12 @@
+// No triangle with a very small angle.
+#pragma once
+
+#include "core/contour/dual_contour.h"
+
+namespace massprops {
+
+/// Collapses the short edges of triangles with angles below `angle`, degrees, and flips the long
+/// ones, as far as creases, directions of faces and the manifold allow. How many are left.
+int removeSlivers(double angle, Contour& contour);
+
+} // namespace massprops

@@ -1,0 +1,149 @@
+// The surface of a cavity: what it promises, measured by other means.
+#include "core/contour/cavity_contour.h"
+
+#include "core/base/triangle.h"
+#include "core/contour/slivers.h"
+#include "core/contour/wall_keeping.h"
+#include "core/mesh/components.h"
+#include "core/mesh/connectivity.h"
+#include "core/query/self_intersection.h"
+#include "core/query/surface_distance.h"
+#include "shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace massprops::testing {
+namespace {
+
+double smallestAngle(const TriangleMesh& mesh) {
+  double least = 180.0;
+  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
+    least = std::min(least, leastAngle(mesh.vertices.row(mesh.faces(f, 0)).transpose(),
+                                       mesh.vertices.row(mesh.faces(f, 1)).transpose(),
+                                       mesh.vertices.row(mesh.faces(f, 2)).transpose()));
+  }
+  return least;
+}
+
+void expectCavity(const TriangleTree& surface, double wall, const TriangleMesh& mesh) {
+  EXPECT_GT(mesh.faces.rows(), 0);
+  const EdgeCounts edges = countEdges(mesh.vertices.rows(), mesh.faces);
+  EXPECT_EQ(edges.boundary + edges.nonManifold + edges.incoherent, 0U);
+  EXPECT_TRUE(selfIntersectingFaces(mesh.vertices, mesh.faces).empty());
+  EXPECT_GE(ClearanceQuery(surface).measure(mesh.vertices, mesh.faces, 2.0 * wall).least, wall);
+  EXPECT_GT(smallestAngle(mesh), 5.0);
+}
+
+TEST(CavityContour, OfABoxIsTheSmallerBoxInFewTriangles) {
+  const TriangleMesh outer = box({1.0, 1.5, 2.0}, 3);
+  const TriangleTree tree(outer.vertices, outer.faces);
+  const double wall = 0.05;
+  const auto cavity = cavityContour(tree, wall, {}, 20000);
+  ASSERT_TRUE(cavity);
+  const TriangleMesh& mesh = cavity->contour.mesh;
+  expectCavity(tree, wall, mesh);
+  EXPECT_LT(mesh.faces.rows(), 5000);
+  const double volume = (Eigen::Array3d(1.0, 1.5, 2.0) - 2.0 * wall).prod();
+  EXPECT_NEAR(moments(mesh.vertices, mesh.faces)[0], volume, 1e-3 * volume);
+}
+
+TEST(CavityContour, FillsAlmostAllOfWhatABallLeaves) {
+  const TriangleMesh outer = sphere(30);
+  const TriangleTree tree(outer.vertices, outer.faces);
+  const double wall = 0.05;
+  const auto cavity = cavityContour(tree, wall, {}, 40000);
+  ASSERT_TRUE(cavity);
+  expectCavity(tree, wall, cavity->contour.mesh);
+  const double volume = moments(outer.vertices, outer.faces)[0] * std::pow(1.0 - wall, 3);
+  EXPECT_NEAR(moments(cavity->contour.mesh.vertices, cavity->contour.mesh.faces)[0], volume,
+              3e-3 * volume);
+}
+
+TEST(CavityContour, LeavesOutChannelsNarrowerThanAWall) {
+  // Two rooms with a passage between them that is 0.6 walls wide, and one of 1.6 walls.
+  const double wall = 0.1;
+  for (const double width : {0.6, 1.6}) {
+    const double thin = (2.0 + width) * wall;
+    std::vector<Vec2> profile;
+    const auto ball = [&](double height, bool isUpper) {
+      for (int i = 0; i <= 24; ++i) {
+        const double angle = 3.14159265358979 * i / 24;
+        const Vec2 p(0.5 * std::sin(angle), height + 0.5 * std::cos(angle));
+        const bool isNeck = p.x() < 0.5 * thin && (isUpper ? p.y() < height : p.y() > height);
+        if (!isNeck) profile.push_back(p);
+      }
+    };
+    ball(0.8, true);
+    profile.emplace_back(0.5 * thin, 0.3);
+    profile.emplace_back(0.5 * thin, 0.0);
+    profile.emplace_back(0.5 * thin, -0.3);
+    ball(-0.8, false);
+    profile.front().x() = profile.back().x() = 0.0;
+    const TriangleMesh outer = revolved(profile, 48);
+    const TriangleTree tree(outer.vertices, outer.faces);
+    const auto cavity = cavityContour(tree, wall, {}, 40000);
+    ASSERT_TRUE(cavity);
+    expectCavity(tree, wall, cavity->contour.mesh);
+    const auto rooms =
+        connectedComponents(cavity->contour.mesh.vertices.rows(), cavity->contour.mesh.faces);
+    EXPECT_EQ(rooms.size(), width < 1.0 ? 2U : 1U);
+  }
+}
+
+TEST(CavityContour, KeepsItsPromisesForAnyQuadric) {
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal;
+  const TriangleMesh outer = figure(5);
+  const TriangleTree tree(outer.vertices, outer.faces);
+  const double diagonal =
+      (outer.vertices.colwise().maxCoeff() - outer.vertices.colwise().minCoeff()).norm();
+  for (int i = 0; i < 12; ++i) {
+    Moments quadric;
+    for (double& term : quadric) term = normal(random);
+    quadric.tail<6>() *= 2.0;
+    const double wall = 0.01 * diagonal;
+    const auto cavity = cavityContour(tree, wall, quadric, 15000);
+    ASSERT_TRUE(cavity);
+    if (cavity->contour.mesh.faces.rows() > 0) expectCavity(tree, wall, cavity->contour.mesh);
+  }
+}
+
+TEST(CavityContour, IsEmptyWhereThereIsNoRoom) {
+  const TriangleMesh outer = box({1.0, 1.0, 0.2}, 3);
+  const TriangleTree tree(outer.vertices, outer.faces);
+  const auto cavity = cavityContour(tree, 0.11, {}, 20000);
+  ASSERT_TRUE(cavity);
+  EXPECT_EQ(cavity->contour.mesh.faces.rows(), 0);
+}
+
+TEST(WallKeeping, MovesWhatIsTooNear) {
+  const TriangleMesh outer = sphere(20);
+  const TriangleTree tree(outer.vertices, outer.faces);
+  TriangleMesh inner = sphere(15);
+  inner.vertices *= 0.93;
+  EXPECT_TRUE(keepWall(tree, 0.08, inner).empty());
+  EXPECT_GE(ClearanceQuery(tree).measure(inner.vertices, inner.faces, 0.2).least, 0.08);
+  EXPECT_GT(moments(inner.vertices, inner.faces)[0], 0.97 * 4.1888 * std::pow(0.92, 3));
+}
+
+TEST(Slivers, GoByCollapsesAndFlips) {
+  Contour contour{sphere(12), {}};
+  Points& x = contour.mesh.vertices;
+  // A vertex next to one of its neighbours, and one on the opposite side of its ring.
+  const int a = contour.mesh.faces(100, 0);
+  const int b = contour.mesh.faces(100, 1);
+  x.row(a) = 0.99 * x.row(b) + 0.01 * x.row(a);
+  contour.on.assign(static_cast<std::size_t>(x.rows()), On::Inset);
+  ASSERT_LT(smallestAngle(contour.mesh), 5.0);
+  EXPECT_EQ(removeSlivers(8.0, contour), 0);
+  EXPECT_GE(smallestAngle(contour.mesh), 8.0);
+  const EdgeCounts edges = countEdges(contour.mesh.vertices.rows(), contour.mesh.faces);
+  EXPECT_EQ(edges.boundary + edges.nonManifold + edges.incoherent, 0U);
+  EXPECT_EQ(contour.on.size(), static_cast<std::size_t>(contour.mesh.vertices.rows()));
+}
+
+} // namespace
+} // namespace massprops::testing
