@@ -123,16 +123,18 @@ int addCube(const Place& place, BorderLattice& lattice) {
 }
 
 /// Two surfaces at an acute angle are kept apart: their triangles would cross each other where the
-/// region between them ends.
+/// region between them ends. The more acute, the wider apart.
 std::optional<Sample> bluntAt(const Corner& corner, double edge) {
-  constexpr double kAcute = -0.75;
+  constexpr double kBegins = -0.5; // cosine between the slopes
+  constexpr double kWhole = -0.9;
   constexpr double kApart = 0.4; // edges
   if (!corner.inset || !corner.cut) return {};
+  const double cosine = corner.inset->slope.dot(corner.cut->slope);
   const Vec3 slope = corner.inset->slope + corner.cut->slope;
   const double steepness = slope.norm();
-  if (corner.inset->slope.dot(corner.cut->slope) > kAcute || steepness < 1e-9) return {};
-  const double value = corner.inset->value + corner.cut->value - kApart * edge;
-  return Sample{value / steepness, slope / steepness};
+  if (cosine > kBegins || steepness < 1e-9) return {};
+  const double apart = kApart * edge * std::min((cosine - kBegins) / (kWhole - kBegins), 1.0);
+  return Sample{(corner.inset->value + corner.cut->value - apart) / steepness, slope / steepness};
 }
 
 /// `isNearWall`: for every corner whether it has a cube that is not deep.
@@ -152,11 +154,6 @@ void sample(const Region& region, const std::vector<char>& isNearWall, BorderLat
   });
 }
 
-void takeOut(Corner& corner) {
-  corner.isInside = false;
-  corner.isTakenOut = true;
-}
-
 /// Of a cube that is cut more than once the least of the corners inside goes out, which may spoil
 /// the cubes around. `wild`: cubes to look at.
 void tame(std::vector<int> wild, BorderLattice& lattice) {
@@ -169,7 +166,7 @@ void tame(std::vector<int> wild, BorderLattice& lattice) {
       Corner& corner = lattice.corners[at(c)];
       if (corner.isInside && (least == nullptr || corner.value() < least->value())) least = &corner;
     }
-    takeOut(*least);
+    least->isInside = false;
     const Place place = least->place;
     for (int i = 0; i < 8; ++i) {
       const int known = lattice.cubeAt.find(place - cornerStep(i));
@@ -259,7 +256,8 @@ void takeOut(const std::vector<Vec3>& points, BorderLattice& lattice) {
     for (int i = 0; i < 8; ++i) {
       const int c = lattice.cornerAt.find(place + cornerStep(i));
       if (c < 0 || !lattice.corners[at(c)].isInside) continue;
-      takeOut(lattice.corners[at(c)]);
+      lattice.corners[at(c)].isInside = false;
+      lattice.corners[at(c)].isTakenOut = true;
       for (int j = 0; j < 8; ++j) {
         const Place cube = lattice.corners[at(c)].place - cornerStep(j);
         const int known = lattice.cubeAt.find(cube);

@@ -34,8 +34,9 @@ private:
 /// A corner of cubes.
 struct Corner {
   Place place;
+  /// Not where the value is negative, and not everywhere else, see `borderLattice`.
   bool isInside = false;
-  /// It was inside, but the cubes around it were too wild so.
+  /// By `takeOut`: the border shall keep away from it.
   bool isTakenOut = false;
   /// Empty: so far inside that it does not matter.
   std::optional<Sample> inset, cut;

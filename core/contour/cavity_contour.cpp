@@ -74,9 +74,10 @@ Contour thinnedOut(const Contour& contour, double distance) {
 /// Few triangles, none of them a sliver, on the border.
 Contour smoothed(const Region& region, double edge, Contour contour) {
   project(region, edge, contour);
+  constexpr double kSliver = 8.0; // degrees; a target that leaves room to what follows
+  removeSlivers(kSliver, contour);
   constexpr double kFlat = 0.002; // walls
   contour = thinnedOut(contour, kFlat * region.wall);
-  constexpr double kSliver = 8.0; // degrees; a target that leaves room to what follows
   removeSlivers(kSliver, contour);
   return contour;
 }

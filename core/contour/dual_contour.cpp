@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 namespace massprops {
 namespace {
@@ -67,10 +69,7 @@ public:
     sum_ += x;
     ++points_;
   }
-  void addPlane(const Vec3& x, const Vec3& normal) {
-    planes_[planeCount_++] = {x, normal};
-    addPoint(x);
-  }
+  void addPlane(const Vec3& x, const Vec3& normal) { planes_[planeCount_++] = {x, normal}; }
 
   Vec3 nearest() const {
     const Vec3 middle = sum_ / points_;
@@ -145,9 +144,10 @@ private:
   const Corner& corner(int c) const { return lattice_.corners[at(c)]; }
 
   struct Crossing {
-    Vec3 point, slope;
+    Vec3 point;
     On on;
-    bool hasPlane;
+    /// The plane of what vanishes there: a point of it, and its slope. Empty: nothing does.
+    std::optional<std::pair<Vec3, Vec3>> plane;
   };
 
   /// On the edge between a corner inside and one that is not.
@@ -156,11 +156,15 @@ private:
     const Corner& b = corner(outside);
     const Vec3 from = lattice_.positionOf(inside);
     const Vec3 way = lattice_.positionOf(outside) - from;
+    constexpr double kAwayFromTakenOut = 0.6;
+    if (b.isTakenOut) return {from + kAwayFromTakenOut * way, On::Blunt, {}};
+    constexpr double kAlmostAll = 0.98;
+    if (b.value() > 0.0) return beyond(b, from + way, from + kAlmostAll * way);
     Root first;
     On on = On::Inset;
     const auto consider = [&](const std::optional<Sample>& atA, const std::optional<Sample>& atB,
                               On candidate) {
-      if (b.isTakenOut || !atA || !atB || atA->value <= 0.0 || atB->value >= 0.0) return;
+      if (!atA || !atB || atA->value <= 0.0 || atB->value >= 0.0) return;
       const Root root = rootBetween(*atA, *atB, way);
       if (root.t >= first.t) return;
       first = root;
@@ -169,9 +173,25 @@ private:
     consider(a.inset, b.inset, On::Inset);
     consider(a.cut, b.cut, On::Cut);
     consider(a.blunt, b.blunt, On::Blunt);
-    constexpr double kAwayFromTakenOut = 0.6;
-    if (!(first.t <= 1.0)) return {from + kAwayFromTakenOut * way, Vec3::Zero(), On::Blunt, false};
-    return {from + first.t * way, first.slope, on, true};
+    if (!(first.t <= 1.0)) return {from + kAwayFromTakenOut * way, On::Blunt, {}};
+    const Vec3 point = from + first.t * way;
+    return {point, on, {{point, first.slope}}};
+  }
+
+  /// Of a corner that is left out although the border lies behind it.
+  static Crossing beyond(const Corner& corner, const Vec3& x, const Vec3& point) {
+    const std::optional<Sample>* least = &corner.inset;
+    On on = On::Inset;
+    const auto consider = [&](const std::optional<Sample>& sample, On candidate) {
+      if (!sample || (*least && (*least)->value <= sample->value)) return;
+      least = &sample;
+      on = candidate;
+    };
+    consider(corner.cut, On::Cut);
+    consider(corner.blunt, On::Blunt);
+    if (!*least) return {point, On::Blunt, {}};
+    const Sample& sample = **least;
+    return {point, on, {{x - sample.value * sample.slope, sample.slope}}};
   }
 
   void placeVertex(int cube) {
@@ -185,11 +205,8 @@ private:
         if (!corner(a).isInside || corner(b).isInside) continue;
         const Crossing c = crossing(a, b);
         isOn[static_cast<std::size_t>(c.on)] = true;
-        if (c.hasPlane) {
-          fit.addPlane(c.point, c.slope);
-        } else {
-          fit.addPoint(c.point);
-        }
+        fit.addPoint(c.point);
+        if (c.plane) fit.addPlane(c.plane->first, c.plane->second);
       }
     }
     constexpr double kFromSides = 0.02; // of the edge: no two vertices fall together

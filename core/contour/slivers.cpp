@@ -26,6 +26,16 @@ public:
     int slivers = 0, changes = 0;
   };
 
+  /// Vertices that should be on a crease and are not go onto a neighbour that is.
+  int sharpen() {
+    int changes = 0;
+    for (int v = 0; v < static_cast<int>(contour_.on.size()); ++v) {
+      if (contour_.on[at(v)] == On::Blunt && goesOntoCrease(v)) ++changes;
+    }
+    dropGone();
+    return changes;
+  }
+
   Outcome run() {
     Outcome outcome;
     for (int f = 0; f < faces_.rows(); ++f) {
@@ -55,6 +65,16 @@ private:
     }
     return collapse(shortest, from(shortest), to(shortest)) ||
            collapse(shortest, to(shortest), from(shortest)) || flip(longest);
+  }
+
+  bool goesOntoCrease(int v) {
+    std::vector<std::pair<double, int>> ways;
+    for (const int h : corners_.at(v)) {
+      if (contour_.on[at(to(h))] == On::Crease) ways.emplace_back(squaredLength(h), h);
+    }
+    std::sort(ways.begin(), ways.end());
+    return std::any_of(ways.begin(), ways.end(),
+                       [&](const auto& way) { return collapse(way.second, v, to(way.second)); });
   }
 
   bool isFree(int v) const {
@@ -183,6 +203,9 @@ private:
 int removeSlivers(double angle, Contour& contour) {
   constexpr int kPasses = 12;
   int left = 0;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    if (SliverPass(angle, contour).sharpen() == 0) break;
+  }
   for (int pass = 0; pass < kPasses; ++pass) {
     const auto [slivers, changes] = SliverPass(angle, contour).run();
     left = slivers - changes;

@@ -1,4 +1,4 @@
-// No triangle with a very small angle.
+// No triangle with a very small angle, no vertex beside a crease.
 #pragma once
 
 #include "core/contour/dual_contour.h"
@@ -6,7 +6,8 @@
 namespace massprops {
 
 /// Collapses the short edges of triangles with angles below `angle`, degrees, and flips the long
-/// ones, as far as creases, directions of faces and the manifold allow. How many are left.
+/// ones, and moves what is beside a crease onto it, as far as creases, directions of faces and the
+/// manifold allow. How many are left.
 int removeSlivers(double angle, Contour& contour);
 
 } // namespace massprops
