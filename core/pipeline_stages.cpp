@@ -203,7 +203,14 @@ Search search(const Preparation& model, const Foundation& foundation, const Opti
   bar.show(model.schedule.search, "Optimization");
   const std::unique_ptr<Goal> instead = model.goal->insteadOfConstraints();
   const bool isOutOfReach = foundation.bound && !foundation.bound->isReachable();
-  if (!instead || !isOutOfReach) result.cavity = searchFor(result.task);
+  const std::unique_ptr<Goal> relaxed = isOutOfReach ? nullptr : model.goal->relaxed();
+  if (relaxed) result.cavity = searchFor(taskFor(*relaxed, kSlantedClearance));
+  const bool isDone = relaxed && keepsConstraints(result.task, result.cavity);
+  if (!isDone && !(instead && isOutOfReach)) {
+    CavityResult found = searchFor(result.task);
+    found.effort += result.cavity.effort;
+    result.cavity = std::move(found);
+  }
   if (instead && (isOutOfReach || !keepsConstraints(result.task, result.cavity))) {
     CavityTask task = taskFor(*instead, kSlantedClearance);
     task.bound.reset(); // of another objective

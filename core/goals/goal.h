@@ -68,6 +68,9 @@ public:
   virtual std::optional<double> measure(const Moments& massMoments) const;
   /// What to pursue where the constraints cannot be kept; null: their least violation.
   virtual std::unique_ptr<Goal> insteadOfConstraints() const { return nullptr; }
+  /// The same without constraints that part the bodies in two sets, which the best body often keeps
+  /// by itself: a search begins with it. Null: there are none.
+  virtual std::unique_ptr<Goal> relaxed() const { return nullptr; }
   /// Whether it is certain that no body with its centre of mass in a set does what is asked for.
   /// `best`: one that there is; `centres` gives the set, which is asked for only where it counts.
   virtual bool noneCan(const Moments& best, const std::function<HalfSpaces()>& centres) const;

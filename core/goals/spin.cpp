@@ -40,11 +40,20 @@ public:
 
   GoalConstraints inequalities(const Moments& massMoments) const override {
     const MassProperties body = massProperties(massMoments);
+    const GoalConstraints height{Vector::Constant(1, -body.centerOfMass.z()),
+                                 -massPropertyGradients(body).centerOfMass.row(2)};
+    if (isRelaxed_) return height;
     const GoalConstraints moment = notTheMiddleMoment(massMoments, TurnsAbout::Tip, solidInertia_);
     GoalConstraints g{Vector(2), MomentGradients(2, 10)};
-    g.values << -body.centerOfMass.z(), moment.values;
-    g.gradients << -massPropertyGradients(body).centerOfMass.row(2), moment.gradients;
+    g.values << height.values, moment.values;
+    g.gradients << height.gradients, moment.gradients;
     return g;
+  }
+
+  std::unique_ptr<Goal> relaxed() const override {
+    auto goal = std::make_unique<SpinGoal>(*this);
+    goal->isRelaxed_ = true;
+    return goal;
   }
 
   bool usesInertia() const override { return true; }
@@ -58,6 +67,7 @@ private:
   double solidInertia_;
   Weights weights_;
   Vec2 axis_;
+  bool isRelaxed_ = false; ///< any moment about the axis will do
 };
 
 /// The body on its tip, the axis taken as a principal one through the centre of mass. In working

@@ -35,7 +35,14 @@ public:
   }
 
   GoalConstraints inequalities(const Moments& massMoments) const override {
+    if (isRelaxed_) return {};
     return notTheMiddleMoment(massMoments, TurnsAbout::Centre, solidInertia_);
+  }
+
+  std::unique_ptr<Goal> relaxed() const override {
+    auto goal = std::make_unique<YoYoGoal>(*this);
+    goal->isRelaxed_ = true;
+    return goal;
   }
 
   bool usesInertia() const override { return true; }
@@ -49,6 +56,7 @@ private:
   double solidInertia_;
   double weight_;
   Vec3 pivot_;
+  bool isRelaxed_ = false; ///< any moment about the axle will do
 };
 
 class YoYoVerdict final : public Verdict {

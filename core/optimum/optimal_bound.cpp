@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <utility>
 
 namespace massprops {
@@ -134,6 +135,14 @@ private:
   Functions functions_;
 };
 
+/// The best of these.
+void take(const HollowBodies& bodies, OptimalBound& bound) {
+  const Vector q = bodies.best().x;
+  bound.massMoments = bodies.massMoments(q);
+  bound.objective = bodies.objective(q);
+  bound.quadric = bodies.quadric(q);
+}
+
 } // namespace
 
 bool OptimalBound::isReachable() const {
@@ -166,11 +175,11 @@ OptimalBound optimalBound(const Goal& goal, const Weights& weights, const Moment
     bound.quadric = (1.0 - fillDensity) * best.functional.head<10>();
     bound.objective = goal.objective(best.body).value;
   } else {
-    const HollowBodies bodies(goal, weights, solid, fillDensity, cells);
-    const Vector q = bodies.best().x;
-    bound.massMoments = bodies.massMoments(q);
-    bound.objective = bodies.objective(q);
-    bound.quadric = bodies.quadric(q);
+    const std::unique_ptr<Goal> relaxed = goal.relaxed();
+    if (relaxed) take(HollowBodies(*relaxed, weights, solid, fillDensity, cells), bound);
+    if (!relaxed || largestViolation(goal, bound.massMoments) > kFeasibility) {
+      take(HollowBodies(goal, weights, solid, fillDensity, cells), bound);
+    }
   }
   if (weights.volume == 0.0) bound.measure = goal.measure(bound.massMoments);
   bound.violation = largestViolation(goal, bound.massMoments);

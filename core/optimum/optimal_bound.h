@@ -20,8 +20,8 @@ struct OptimalBound {
 
   Moments massMoments = Moments::Zero();
   double objective = 0.0; ///< terms 1, 2, 3 and 5
-  double violation =
-      0.0; ///< largest of the goal's constraints; > 0: no cavity was found to hold all
+  /// Largest of the goal's constraints; > 0: no cavity was found to hold all.
+  double violation = 0.0;
   /// Of this body, where the goal's measure is all that counts.
   std::optional<double> measure;
   /// Of the goal's conditions, in their order; empty where they are not linear, or where this body

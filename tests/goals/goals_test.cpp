@@ -372,6 +372,22 @@ TEST(SpinGoal, AsksForAMomentThatIsNotBetweenTheOtherTwoOnTheTip) {
   }
 }
 
+TEST(RelaxedGoals, AskForTheSameButAMomentThatIsNotBetweenTheOtherTwo) {
+  const Moments m = boxOnTip({1.0, 0.3, 0.6}, 0.05);
+  const auto spin = spinGoal(m);
+  const auto yoYo = makeYoYoGoal(m, kPublished, {0, 0, 0.05});
+  for (const Goal* goal : {spin.get(), yoYo.get()}) {
+    const std::unique_ptr<Goal> relaxed = goal->relaxed();
+    ASSERT_TRUE(relaxed);
+    EXPECT_EQ(relaxed->objective(m).value, goal->objective(m).value);
+    EXPECT_EQ(relaxed->equalities(m).values, goal->equalities(m).values);
+    EXPECT_GT(largestViolation(*goal, m), 0.01);
+    EXPECT_LT(largestViolation(*relaxed, m), 1e-12);
+    expectGradientsMatch(*relaxed, m);
+  }
+  EXPECT_FALSE(makeStandGoal(square(1.0), kPublished)->relaxed());
+}
+
 TEST(SpinGoal, ReportsTheSpeedFromWhichItSleeps) {
   // A disc of 40 × 5 mm, 20 mm above its tip: 2 sqrt(g h (I_a/m + h²))/(I_zz/m).
   const TriangleMesh disc = revolved({{0, 2.5}, {20, 2.5}, {20, -2.5}, {0, -2.5}}, 400);

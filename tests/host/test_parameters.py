@@ -152,7 +152,7 @@ class ParametersTest(HostTest):
 
     def test_opt_weight_6_holds_the_outer_surface(self):
         _, (free, _), _ = self.both_surfaces(outer_upper_bound=2, opt_weight_6=0)
-        _, (held, _), _ = self.both_surfaces(outer_upper_bound=2, opt_weight_6=3)
+        _, (held, _), _ = self.both_surfaces(outer_upper_bound=2, opt_weight_6=10000)
 
         def mean_square(outer):
             return ((outer - self.outer[0])**2).sum(axis=1).mean()
