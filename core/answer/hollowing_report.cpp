@@ -198,6 +198,9 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Ve
   verdicts.after.describe(after.mass, "after", report);
   if (task.bound) {
     report.add("objective_limit", task.bound->objective);
+    if (task.bound->objectiveAtLeast) {
+      report.add("objective_limit_at_least", *task.bound->objectiveAtLeast);
+    }
     report.add("gap_to_limit", gapToBound(*task.bound, before, after));
     verdicts.before.describe(task.bound->massMoments, "limit", report);
     addBest(task, verdicts, report);

@@ -5,8 +5,12 @@
 
 namespace massprops {
 
+double valueOf(const AffineRow& functional, const Moments& massMoments) {
+  return functional.head<10>().dot(massMoments) + functional[10];
+}
+
 LinearConditions linearConditions(const AffineRows& equalities, const AffineRows& inequalities,
-                                  const Eigen::Matrix<double, 1, 11>& perLevel) {
+                                  const AffineRow& perLevel) {
   const Eigen::Index rows = 2 * equalities.rows() + inequalities.rows();
   LinearConditions conditions{AffineRows(rows, 11), perLevel.replicate(rows, 1)};
   conditions.atZero << equalities, -equalities, inequalities;

@@ -28,6 +28,9 @@ struct GoalConstraints {
 
 /// Rows of a functional that is affine in the ten mass moments: the last column is the constant.
 using AffineRows = Eigen::Matrix<double, Eigen::Dynamic, 11, Eigen::RowMajor>;
+using AffineRow = Eigen::Matrix<double, 1, 11>;
+
+double valueOf(const AffineRow& functional, const Moments& massMoments);
 
 /// (atZero + t slopes)·(M, 1) ≤ 0, r rows: whether the body with the moments M reaches the level t,
 /// the greater the better. The slopes are positive at every body.
@@ -38,10 +41,12 @@ struct LinearConditions {
 /// Rows that are to be 0 and rows that are to be ≤ 0 as conditions, the former with both signs.
 /// `perLevel`: the slope of each.
 LinearConditions linearConditions(const AffineRows& equalities, const AffineRows& inequalities,
-                                  const Eigen::Matrix<double, 1, 11>& perLevel);
+                                  const AffineRow& perLevel);
 
 /// The level that a body reaches.
 double levelReached(const LinearConditions& conditions, const Moments& massMoments);
+
+struct SpinningTask;
 
 /// A goal sees a body through its ten mass moments M in the working frame, the material's density
 /// being 1: M = outer − (1 − f) inner with f the filling's density, so that any function of M is
@@ -71,6 +76,8 @@ public:
   /// The same without constraints that part the bodies in two sets, which the best body often keeps
   /// by itself: a search begins with it. Null: there are none.
   virtual std::unique_ptr<Goal> relaxed() const { return nullptr; }
+  /// What it minimises about which axis, where that is a matter of spinning; else null.
+  virtual const SpinningTask* spinningTask() const { return nullptr; }
   /// Whether it is certain that no body with its centre of mass in a set does what is asked for.
   /// `best`: one that there is; `centres` gives the set, which is asked for only where it counts.
   virtual bool noneCan(const Moments& best, const std::function<HalfSpaces()>& centres) const;

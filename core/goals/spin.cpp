@@ -19,23 +19,23 @@ constexpr double kTurnsPerMinute = 60.0 / (2.0 * kPi);
 
 class SpinGoal final : public Goal {
 public:
-  SpinGoal(const Moments& solidMassMoments, const Weights& weights, Vec2 axis)
-      : solidMass_(solidMassMoments[0]),
-        solidInertia_(massProperties(solidMassMoments).inertiaTensor(2, 2)), weights_(weights),
-        axis_(std::move(axis)) {}
+  SpinGoal(const Moments& solidMassMoments, const Weights& weights, const Vec2& axis)
+      : task_{{axis.x(), axis.y(), 0.0}, false,
+              solidMassMoments[0],       massProperties(solidMassMoments).inertiaTensor(2, 2),
+              weights.centerOfMass,      weights.inertia} {}
 
   GoalValue objective(const Moments& massMoments) const override {
     const GoalValue ratios = inertiaRatios(massMoments);
     // (m/m_solid) c_z = S_z/m_solid
-    const double weight = weights_.centerOfMass / solidMass_;
-    GoalValue f{weights_.inertia * ratios.value + weight * massMoments[3],
-                weights_.inertia * ratios.gradient};
+    const double weight = task_.staticWeight / task_.solidMass;
+    GoalValue f{task_.inertiaWeight * ratios.value + weight * massMoments[3],
+                task_.inertiaWeight * ratios.gradient};
     f.gradient[3] += weight;
     return f;
   }
 
   GoalConstraints equalities(const Moments& massMoments) const override {
-    return axisConstraints(massMoments, axis_, solidInertia_);
+    return axisConstraints(massMoments, task_.point.head<2>(), task_.solidInertia);
   }
 
   GoalConstraints inequalities(const Moments& massMoments) const override {
@@ -43,7 +43,8 @@ public:
     const GoalConstraints height{Vector::Constant(1, -body.centerOfMass.z()),
                                  -massPropertyGradients(body).centerOfMass.row(2)};
     if (isRelaxed_) return height;
-    const GoalConstraints moment = notTheMiddleMoment(massMoments, TurnsAbout::Tip, solidInertia_);
+    const GoalConstraints moment =
+        notTheMiddleMoment(massMoments, TurnsAbout::Tip, task_.solidInertia);
     GoalConstraints g{Vector(2), MomentGradients(2, 10)};
     g.values << height.values, moment.values;
     g.gradients << height.gradients, moment.gradients;
@@ -58,15 +59,12 @@ public:
 
   bool usesInertia() const override { return true; }
 
-  std::vector<LinearConditions> conditions() const override {
-    return spinningConditions({axis_.x(), axis_.y(), 0.0}, false, solidMass_, solidInertia_);
-  }
+  std::vector<LinearConditions> conditions() const override { return spinningConditions(task_); }
+
+  const SpinningTask* spinningTask() const override { return &task_; }
 
 private:
-  double solidMass_;
-  double solidInertia_;
-  Weights weights_;
-  Vec2 axis_;
+  SpinningTask task_;
   bool isRelaxed_ = false; ///< any moment about the axis will do
 };
 

@@ -85,20 +85,26 @@ void SpinningAxis::describe(double lengthUnit, const std::string& suffix, Report
   report.add("moment_ratio_b_" + suffix, ratioB);
 }
 
-std::vector<LinearConditions> spinningConditions(const Vec3& point, bool isCentred,
-                                                 double solidMass, double solidInertia) {
+AffineRows axisEqualities(const SpinningTask& task) {
+  const Vec3& point = task.point;
   // S_x − p_x m, S_y − p_y m, S_z − p_z m; Q_xz − p_x S_z, Q_yz − p_y S_z.
-  AffineRows equal = AffineRows::Zero(isCentred ? 5 : 4, 11);
+  AffineRows equal = AffineRows::Zero(task.isCentred ? 5 : 4, 11);
   equal.topRows<2>() << -point.x(), 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, //
       -point.y(), 0, 1, 0, 0, 0, 0, 0, 0, 0, 0;
-  equal.topRows<2>() /= solidMass;
-  equal(2, 9) = equal(3, 8) = 1.0 / solidInertia;
-  equal(2, 3) = -point.x() / solidInertia;
-  equal(3, 3) = -point.y() / solidInertia;
-  if (isCentred) {
-    equal(4, 0) = -point.z() / solidMass;
-    equal(4, 3) = 1.0 / solidMass;
+  equal.topRows<2>() /= task.solidMass;
+  equal(2, 9) = equal(3, 8) = 1.0 / task.solidInertia;
+  equal(2, 3) = -point.x() / task.solidInertia;
+  equal(3, 3) = -point.y() / task.solidInertia;
+  if (task.isCentred) {
+    equal(4, 0) = -point.z() / task.solidMass;
+    equal(4, 3) = 1.0 / task.solidMass;
   }
+  return equal;
+}
+
+std::vector<LinearConditions> spinningConditions(const SpinningTask& task) {
+  const Vec3& point = task.point;
+  const AffineRows equal = axisEqualities(task);
   // I_zz − I_uu = ∫(x − p)² along u − ∫(z − p_z)² for horizontal directions u.
   constexpr int kDirections = 36; // over half a turn
   AffineRows less = AffineRows::Zero(kDirections, 11);
@@ -109,8 +115,8 @@ std::vector<LinearConditions> spinningConditions(const Vec3& point, bool isCentr
         -2.0 * along * u.y(), 2.0 * point.z(), u.x() * u.x(), u.y() * u.y(), -1.0,
         2.0 * u.x() * u.y(), 0.0, 0.0, 0.0;
   }
-  less /= solidInertia;
-  const auto perLevel = Eigen::Matrix<double, 1, 11>::Unit(10);
+  less /= task.solidInertia;
+  const AffineRow perLevel = AffineRow::Unit(10);
   return {linearConditions(equal, -less, perLevel), linearConditions(equal, less, perLevel)};
 }
 

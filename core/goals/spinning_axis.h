@@ -26,12 +26,23 @@ enum class TurnsAbout { Centre, Tip };
 GoalConstraints notTheMiddleMoment(const Moments& massMoments, TurnsAbout point,
                                    double solidInertia);
 
+/// A body is to turn about the vertical through a point, at a low objective
+/// staticWeight S_z/solidMass + inertiaWeight (I_a² + I_b²)/I_zz².
+struct SpinningTask {
+  Vec3 point;     ///< of the axis, about which the body turns: the tip, or the middle of an axle
+  bool isCentred; ///< whether the centre of mass must be there, too, besides on the axis
+  double solidMass, solidInertia; ///< the latter about the vertical
+  double staticWeight, inertiaWeight;
+};
+
+/// Functionals of the moments that are 0, in shares of the solid's mass and I_zz, exactly if the
+/// centre of mass is where it must be and the axis a principal one: 4, or 5 where it is centred.
+AffineRows axisEqualities(const SpinningTask& task);
+
 /// What `axisConstraints` and `notTheMiddleMoment` ask for, in shares of the solid's mass and I_zz,
 /// with the centre of mass on the axis: linear then, but in two branches, the moment about the
-/// vertical being the greatest or the least. `point`: of the axis, about which the body turns;
-/// `isCentred`: the centre of mass is there, too. docs/math.md "Spin"
-std::vector<LinearConditions> spinningConditions(const Vec3& point, bool isCentred,
-                                                 double solidMass, double solidInertia);
+/// vertical being the greatest or the least. docs/math.md "Spin"
+std::vector<LinearConditions> spinningConditions(const SpinningTask& task);
 
 /// How a body lies about its axis.
 struct SpinningAxis {

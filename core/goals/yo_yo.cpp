@@ -15,28 +15,32 @@ constexpr double kCentred = 1e-3;
 
 class YoYoGoal final : public Goal {
 public:
-  YoYoGoal(const Moments& solidMassMoments, const Weights& weights, Vec3 pivot)
-      : solidMass_(solidMassMoments[0]),
-        solidInertia_(massProperties(solidMassMoments).inertiaTensor(2, 2)),
-        weight_(weights.inertia), pivot_(std::move(pivot)) {}
+  YoYoGoal(const Moments& solidMassMoments, const Weights& weights, const Vec3& pivot)
+      : task_{pivot,
+              true,
+              solidMassMoments[0],
+              massProperties(solidMassMoments).inertiaTensor(2, 2),
+              0.0,
+              weights.inertia} {}
 
   GoalValue objective(const Moments& massMoments) const override {
     const GoalValue ratios = inertiaRatios(massMoments);
-    return {weight_ * ratios.value, weight_ * ratios.gradient};
+    return {task_.inertiaWeight * ratios.value, task_.inertiaWeight * ratios.gradient};
   }
 
   GoalConstraints equalities(const Moments& massMoments) const override {
     const MassProperties body = massProperties(massMoments);
-    const GoalConstraints axis = axisConstraints(massMoments, pivot_.head<2>(), solidInertia_);
+    const GoalConstraints axis =
+        axisConstraints(massMoments, task_.point.head<2>(), task_.solidInertia);
     GoalConstraints h{Vector(5), MomentGradients(5, 10)};
-    h.values << axis.values, body.centerOfMass.z() - pivot_.z();
+    h.values << axis.values, body.centerOfMass.z() - task_.point.z();
     h.gradients << axis.gradients, massPropertyGradients(body).centerOfMass.row(2);
     return h;
   }
 
   GoalConstraints inequalities(const Moments& massMoments) const override {
     if (isRelaxed_) return {};
-    return notTheMiddleMoment(massMoments, TurnsAbout::Centre, solidInertia_);
+    return notTheMiddleMoment(massMoments, TurnsAbout::Centre, task_.solidInertia);
   }
 
   std::unique_ptr<Goal> relaxed() const override {
@@ -47,15 +51,12 @@ public:
 
   bool usesInertia() const override { return true; }
 
-  std::vector<LinearConditions> conditions() const override {
-    return spinningConditions(pivot_, true, solidMass_, solidInertia_);
-  }
+  std::vector<LinearConditions> conditions() const override { return spinningConditions(task_); }
+
+  const SpinningTask* spinningTask() const override { return &task_; }
 
 private:
-  double solidMass_;
-  double solidInertia_;
-  double weight_;
-  Vec3 pivot_;
+  SpinningTask task_;
   bool isRelaxed_ = false; ///< any moment about the axle will do
 };
 

@@ -1,6 +1,7 @@
 #include "core/optimum/level_bound.h"
 
 #include "core/base/minimize.h"
+#include "core/optimum/extreme_bodies.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +10,6 @@
 
 namespace massprops {
 namespace {
-
-using Row = Eigen::Matrix<double, 1, 11>;
 
 /// Levels that differ by less are the same.
 constexpr double kSameLevel = 1e-6;
@@ -28,11 +27,7 @@ class Relaxations {
 public:
   Relaxations(const LinearConditions& conditions, const Moments& solid, double fillDensity,
               const AdmissibleCells& cells)
-      : conditions_(conditions), solid_(solid), filling_(fillDensity - 1.0), cells_(cells),
-        terms_(conditions.atZero.middleCols(4, 6).isZero() &&
-                       conditions.slopes.middleCols(4, 6).isZero()
-                   ? 4
-                   : 10) {
+      : conditions_(conditions), solid_(solid), bodies_(solid, fillDensity, cells) {
     best_.reached = -std::numeric_limits<double>::infinity();
     best_.level = std::numeric_limits<double>::infinity();
     remember(solid);
@@ -44,21 +39,12 @@ public:
     Vector slopes; ///< of the level by the multipliers
   };
 
-  /// Dinkelbach's iteration: the level only grows, and fast.
   Solution solve(const Vector& multipliers) {
-    constexpr int kMostSteps = 30;
-    const Row atZero = multipliers.transpose() * conditions_.atZero;
-    const Row slopes = multipliers.transpose() * conditions_.slopes;
-    Solution s{solid_, -std::numeric_limits<double>::infinity(), {}};
-    for (int step = 0; step < kMostSteps; ++step) {
-      const Moments body = step == 0 ? solid_ : bodyFor(atZero + s.level * slopes);
-      const auto m = extended(body);
-      const double level = -atZero.dot(m) / slopes.dot(m);
-      if (!(level > s.level)) break;
-      s.level = level;
-      s.body = body;
-    }
+    const AffineRow atZero = multipliers.transpose() * conditions_.atZero;
+    const AffineRow slopes = multipliers.transpose() * conditions_.slopes;
+    Solution s{bodies_.withLeastRatio(atZero, slopes, solid_), 0.0, {}};
     const auto m = extended(s.body);
+    s.level = -atZero.dot(m) / slopes.dot(m);
     s.slopes = -(conditions_.atZero * m + s.level * conditions_.slopes * m) / slopes.dot(m);
     remember(s.body);
     if (s.level < best_.level) {
@@ -79,22 +65,9 @@ private:
     best_.body = body;
   }
 
-  /// Hollow where that lowers the functional.
-  Moments bodyFor(const Row& functional) const {
-    const Vector change =
-        filling_ * (cells_.leftCols(terms_) * functional.head(terms_).transpose());
-    Moments cavity = Moments::Zero();
-    for (Eigen::Index c = 0; c < cells_.rows(); ++c) {
-      if (change[c] < 0.0) cavity += cells_.row(c).transpose();
-    }
-    return solid_ + filling_ * cavity;
-  }
-
   const LinearConditions& conditions_;
   const Moments& solid_;
-  double filling_;
-  const AdmissibleCells& cells_;
-  Eigen::Index terms_;
+  ExtremeBodies bodies_;
   LevelBound best_;
 };
 

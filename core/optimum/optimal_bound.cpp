@@ -4,6 +4,7 @@
 #include "core/base/tolerances.h"
 #include "core/goals/objective.h"
 #include "core/optimum/achievable_centres.h"
+#include "core/optimum/spinning_bound.h"
 
 #include <algorithm>
 #include <cmath>
@@ -72,12 +73,10 @@ public:
     MinimizeResult best;
     best.violation = std::numeric_limits<double>::infinity();
     for (const double level : {0.0, -2.0, 2.0}) {
-      MinimizeOptions solver;
-      solver.feasibility = kFeasibility;
-      solver.maxEvaluations = 100;
+      MinimizeOptions solver = solverOptions();
       MinimizeResult result = minimize([&](const Vector& q) { return evaluate(q, softShare); },
                                        level * everything, solver);
-      solver.range = 200.0;
+      solver.range = kRangeOfSharp;
       result = minimize([&](const Vector& q) { return evaluate(q, sharpShare); }, 2.0 * result.x,
                         solver);
       const bool feasible = std::max(result.violation, best.violation) <= kFeasibility;
@@ -86,6 +85,17 @@ public:
       }
     }
     return best;
+  }
+
+  /// From a quadric that is positive where a good body is hollow.
+  MinimizeResult bestFrom(const Moments& quadric) const {
+    constexpr double kSharpness = 20.0; // only cells that its border cuts are hollow in part
+    const Matrix& w = functions_.whitening;
+    const Vector q = (w.transpose() * w).ldlt().solve(w.transpose() * quadric.head(w.rows()));
+    MinimizeOptions solver = solverOptions();
+    solver.range = kRangeOfSharp;
+    return minimize([&](const Vector& x) { return evaluate(x, sharpShare); },
+                    kSharpness * q.normalized(), solver);
   }
 
   Moments massMoments(const Vector& q) const { return bodyOf(hollow(q, sharpShare)); }
@@ -100,6 +110,15 @@ public:
 
 private:
   using ShareOf = Share (*)(double);
+  static constexpr double kRangeOfSharp = 200.0;
+
+  static MinimizeOptions solverOptions() {
+    MinimizeOptions options;
+    options.feasibility = kFeasibility;
+    options.maxEvaluations = 100;
+    return options;
+  }
+
   struct Hollow {
     Moments cavity;
     MomentJacobian jacobian; ///< by q
@@ -135,12 +154,43 @@ private:
   Functions functions_;
 };
 
-/// The best of these.
-void take(const HollowBodies& bodies, OptimalBound& bound) {
-  const Vector q = bodies.best().x;
+void take(const HollowBodies& bodies, const Vector& q, OptimalBound& bound) {
   bound.massMoments = bodies.massMoments(q);
   bound.objective = bodies.objective(q);
   bound.quadric = bodies.quadric(q);
+}
+
+/// A local search.
+void findBody(const Goal& goal, const Weights& weights, const Moments& solid, double fillDensity,
+              const AdmissibleCells& cells, OptimalBound& bound) {
+  const auto search = [&](const Goal& pursued) {
+    const HollowBodies bodies(pursued, weights, solid, fillDensity, cells);
+    take(bodies, bodies.best().x, bound);
+  };
+  const std::unique_ptr<Goal> relaxed = goal.relaxed();
+  if (relaxed) search(*relaxed);
+  if (!relaxed || largestViolation(goal, bound.massMoments) > kFeasibility) search(goal);
+}
+
+/// How low the objective can be about an axis; a body that is nearer to that, if there is one.
+void findLeastAboutAxis(const Goal& goal, const Weights& weights, const Moments& solid,
+                        double fillDensity, const AdmissibleCells& cells, OptimalBound& bound) {
+  const SpinningTask* task = goal.spinningTask();
+  const bool isConstrained = weights.constraints > 0.0;
+  if (task == nullptr || !isConstrained || bound.violation > kFeasibility) return;
+  const std::optional<SpinningBound> least =
+      spinningBound(*task, weights.volume, bound.objective, solid, fillDensity, cells);
+  if (!least) return;
+  if (!least->isNear(bound.objective)) {
+    const HollowBodies bodies(goal, weights, solid, fillDensity, cells);
+    const MinimizeResult other =
+        bodies.bestFrom((1.0 - fillDensity) * least->functional.head<10>().transpose());
+    if (other.violation <= kFeasibility && other.objective < bound.objective) {
+      take(bodies, other.x, bound);
+      bound.violation = largestViolation(goal, bound.massMoments);
+    }
+  }
+  bound.objectiveAtLeast = std::min(bound.objective, least->objective);
 }
 
 } // namespace
@@ -175,14 +225,11 @@ OptimalBound optimalBound(const Goal& goal, const Weights& weights, const Moment
     bound.quadric = (1.0 - fillDensity) * best.functional.head<10>();
     bound.objective = goal.objective(best.body).value;
   } else {
-    const std::unique_ptr<Goal> relaxed = goal.relaxed();
-    if (relaxed) take(HollowBodies(*relaxed, weights, solid, fillDensity, cells), bound);
-    if (!relaxed || largestViolation(goal, bound.massMoments) > kFeasibility) {
-      take(HollowBodies(goal, weights, solid, fillDensity, cells), bound);
-    }
+    findBody(goal, weights, solid, fillDensity, cells, bound);
   }
   if (weights.volume == 0.0) bound.measure = goal.measure(bound.massMoments);
   bound.violation = largestViolation(goal, bound.massMoments);
+  findLeastAboutAxis(goal, weights, solid, fillDensity, cells, bound);
   if (!isMeasured && bound.violation > OptimalBound::kReachable) findLevels();
   bound.isOutOfReach =
       goal.noneCan(bound.massMoments, [&] { return achievableCentres(solid, fillDensity, cells); });

@@ -20,6 +20,9 @@ struct OptimalBound {
 
   Moments massMoments = Moments::Zero();
   double objective = 0.0; ///< terms 1, 2, 3 and 5
+  /// No body that is hollow within the cells and keeps the constraints has a lower objective;
+  /// empty: not known.
+  std::optional<double> objectiveAtLeast;
   /// Largest of the goal's constraints; > 0: no cavity was found to hold all.
   double violation = 0.0;
   /// Of this body, where the goal's measure is all that counts.

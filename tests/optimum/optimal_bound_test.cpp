@@ -337,6 +337,27 @@ TEST_P(OutOfReach, IsSaidWithTheBestThatCouldBeHad) {
   }
 }
 
+TEST(OptimalBound, IsTheLeastOfAllForSpinAndYoYoWithinAPerCent) {
+  for (const char* sample : {"tilted_ellipsoid_top", "uneven_yo_yo", "roly_poly", "game_piece"}) {
+    const TriangleMesh model = sampleMesh(sample);
+    for (const GoalKind kind : {GoalKind::Spin, GoalKind::YoYo}) {
+      Options options;
+      options.goal = kind;
+      const Solid solid = makeSolid(model);
+      const PosedModel posed = makePosedModel(solid, options);
+      const Moments moments = massprops::moments(posed.vertices, posed.faces);
+      const OptimalBound limit =
+          optimalBound(*makeGoal(options, posed, posed.vertices), options.weights, moments, 0.0,
+                       admissibleCells({posed.vertices, posed.faces}, posed.wall));
+      EXPECT_EQ(limit.objectiveAtLeast.has_value(), limit.violation <= 1e-6) << sample;
+      if (!limit.objectiveAtLeast) continue;
+      EXPECT_LE(*limit.objectiveAtLeast, limit.objective) << sample;
+      const double share = kind == GoalKind::YoYo ? 1e-3 : 6e-3;
+      EXPECT_GE(*limit.objectiveAtLeast, (1.0 - share) * limit.objective) << sample;
+    }
+  }
+}
+
 TEST(OffsetsTowards, BeginWhereTheQuadricIsPositive) {
   const TriangleMesh ball = sphere(6);
   OptimalBound bound;
