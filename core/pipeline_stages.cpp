@@ -111,21 +111,31 @@ void findPrintMargins(const Preparation& model, Search& found) {
   found.secondsMargins = time.seconds();
 }
 
-/// Where not even the bound's body does what the goal asks for.
+/// Where not even the bound's body does what the goal asks for: all the proofs that takes, or none.
 void proveOutOfReach(const Preparation& model, const Options& options, Search& found) {
-  if (!found.task.bound || found.task.bound->isReachable()) return;
+  const std::optional<OptimalBound>& bound = found.task.bound;
+  if (!bound || (bound->isReachable() && !bound->outOfReach)) return;
   const Stopwatch time;
-  const std::vector<LinearConditions> conditions = model.goal->conditions();
-  for (std::size_t i = 0; i < conditions.size(); ++i) {
-    std::optional<Certificate> proof =
-        certificate(conditions[i], model.goal->wantedLevel(), found.task.bound->levels[i],
-                    model.solidMoments, fillingSeenBy(options), model.surface, model.posed.wall);
-    if (!proof) {
-      found.certificates.clear();
-      break;
+  const double filling = fillingSeenBy(options);
+  const auto add = [&](std::optional<Certificate> proof) {
+    if (proof) found.certificates.push_back(std::move(*proof));
+    return proof.has_value();
+  };
+  bool isProved = true;
+  if (bound->outOfReach) {
+    const HalfSpaces& set = *bound->outOfReach;
+    for (Eigen::Index i = 0; i < set.limits.size() && isProved; ++i) {
+      isProved = add(certificate(set.normals.row(i).transpose(), set.limits[i], model.solidMoments,
+                                 filling, model.surface, model.posed.wall));
     }
-    found.certificates.push_back(std::move(*proof));
+  } else {
+    const std::vector<LinearConditions> conditions = model.goal->conditions();
+    for (std::size_t i = 0; i < conditions.size() && isProved; ++i) {
+      isProved = add(certificate(conditions[i], model.goal->wantedLevel(), bound->levels[i],
+                                 model.solidMoments, filling, model.surface, model.posed.wall));
+    }
   }
+  if (!isProved) found.certificates.clear();
   found.secondsCertificate = time.seconds();
 }
 

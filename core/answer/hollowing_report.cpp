@@ -33,7 +33,7 @@ MassProperties inModel(const Moments& massMoments, const Frame& frame, double de
 /// What a cavity of any shape could do about a goal that is missed.
 std::string outlook(const CavityTask& task, const Verdict& verdict, bool isProved) {
   if (!task.bound) return "";
-  if (task.bound->isOutOfReach) {
+  if (task.bound->outOfReach && isProved) {
     return " No cavity of any shape that keeps this wall can reach it.";
   }
   if (task.bound->isReachable()) {
@@ -124,6 +124,7 @@ void addCertificates(const Frame& frame, const Stages& stages, Report& report) {
     const std::string number = stages.certificates.size() > 1 ? "_" + std::to_string(i + 1) : "";
     report.add("certificate_functional" + number, inDigits(proof.functional));
     report.add("certificate_margin" + number, proof.margin);
+    if (proof.multipliers.size() == 0) continue;
     std::string conditions;
     for (Eigen::Index r = 0; r < proof.rows.rows(); ++r) {
       if (proof.multipliers[r] <= 0.0) continue;

@@ -28,8 +28,9 @@ std::optional<double> Goal::measure(const Moments& /*massMoments*/) const {
   return std::nullopt;
 }
 
-bool Goal::noneCan(const Moments& /*best*/, const std::function<HalfSpaces()>& /*centres*/) const {
-  return false;
+std::optional<HalfSpaces> Goal::noneCan(const Moments& /*best*/,
+                                        const std::function<HalfSpaces()>& /*centres*/) const {
+  return std::nullopt;
 }
 
 double largestViolation(const Goal& goal, const Moments& massMoments) {

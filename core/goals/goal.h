@@ -78,9 +78,11 @@ public:
   virtual std::unique_ptr<Goal> relaxed() const { return nullptr; }
   /// What it minimises about which axis, where that is a matter of spinning; else null.
   virtual const SpinningTask* spinningTask() const { return nullptr; }
-  /// Whether it is certain that no body with its centre of mass in a set does what is asked for.
-  /// `best`: one that there is; `centres` gives the set, which is asked for only where it counts.
-  virtual bool noneCan(const Moments& best, const std::function<HalfSpaces()>& centres) const;
+  /// Those of some half-spaces that hold all centres of mass that bodies can have, for which it is
+  /// certain that none does what is asked for; empty: not certain. `best`: a body that there is;
+  /// `centres` gives the half-spaces, which are asked for only where they count.
+  virtual std::optional<HalfSpaces> noneCan(const Moments& best,
+                                            const std::function<HalfSpaces()>& centres) const;
 };
 
 /// Largest |equality| or positive inequality.

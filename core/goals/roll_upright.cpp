@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace massprops {
@@ -23,6 +24,9 @@ constexpr double kSharpness = 60.0;
 /// Faces of the hull that are looked at for a proof, over all boxes of centres of mass: a second or
 /// two.
 constexpr std::ptrdiff_t kMostFaces = 6000000;
+/// What holds the centres of mass is taken wider in such steps, in diagonals, while it proves.
+constexpr double kWidening = 2e-3;
+constexpr int kWidenings = 5;
 /// Radius of the disc that is drawn for an area that is a point, in diagonals.
 constexpr double kPointRadius = 0.01;
 
@@ -69,21 +73,41 @@ public:
   GoalConstraints inequalities(const Moments& /*massMoments*/) const override { return {}; }
   bool usesInertia() const override { return false; }
 
-  /// Branch and bound over boxes of centres: each has nothing of the set, or keeps a resting pose
-  /// that is not upright, or is cut in two.
-  bool noneCan(const Moments& best, const std::function<HalfSpaces()>& centres) const override {
-    if (rollsUpright(posesAt(massProperties(best).centerOfMass))) return false;
-    const HalfSpaces set = centres();
-    std::vector<Eigen::AlignedBox3d> boxes{boundsOf(hull_.vertices)};
+  /// Of the widest half-spaces that will do, for these are proved soonest.
+  std::optional<HalfSpaces> noneCan(const Moments& best,
+                                    const std::function<HalfSpaces()>& centres) const override {
+    if (rollsUpright(posesAt(massProperties(best).centerOfMass))) return std::nullopt;
+    HalfSpaces set = centres();
     std::ptrdiff_t left = kMostFaces;
+    std::optional<HalfSpaces> needed = settled(set, left);
+    left = std::min(left, 4 * (kMostFaces - left));
+    for (int i = 0; needed && i < kWidenings; ++i) {
+      set.limits.array() += kWidening;
+      std::optional<HalfSpaces> wider = settled(set, left);
+      if (!wider) break;
+      needed = std::move(wider);
+    }
+    return needed;
+  }
+
+private:
+  /// Branch and bound over boxes of centres: each has nothing of the set, or keeps a resting pose
+  /// that is not upright, or is cut in two. The half-spaces that this takes. `left`: of the faces
+  /// that may be looked at.
+  std::optional<HalfSpaces> settled(const HalfSpaces& set, std::ptrdiff_t& left) const {
+    std::vector<Eigen::AlignedBox3d> boxes{boundsOf(hull_.vertices)};
+    std::vector<Eigen::AlignedBox3d> outside;
     while (!boxes.empty()) {
       const Eigen::AlignedBox3d box = boxes.back();
       boxes.pop_back();
-      if (set.miss(box)) continue;
+      if (set.miss(box)) {
+        outside.push_back(box);
+        continue;
+      }
       left -= hull_.faces.rows();
-      if (left < 0) return false;
+      if (left < 0) return std::nullopt;
       if (keepsAnotherRest(box)) continue;
-      if (set.contain(box.center()) && rollsUpright(posesAt(box.center()))) return false;
+      if (set.contain(box.center()) && rollsUpright(posesAt(box.center()))) return std::nullopt;
       Eigen::Index axis = 0;
       box.sizes().maxCoeff(&axis);
       for (const bool isUpper : {false, true}) {
@@ -92,10 +116,33 @@ public:
         boxes.push_back(half);
       }
     }
-    return true;
+    return fewestThatMiss(set, std::move(outside));
   }
 
-private:
+  /// One at least; again and again the half-space that misses most of the boxes that are left.
+  static HalfSpaces fewestThatMiss(const HalfSpaces& set, std::vector<Eigen::AlignedBox3d> boxes) {
+    std::vector<Eigen::Index> chosen;
+    do {
+      Eigen::VectorXi missed = Eigen::VectorXi::Zero(set.limits.size());
+      for (const Eigen::AlignedBox3d& box : boxes) {
+        missed.array() += (set.distancesTo(box).array() > 0.0).cast<int>();
+      }
+      Eigen::Index best = 0;
+      missed.maxCoeff(&best);
+      chosen.push_back(best);
+      boxes.erase(std::remove_if(boxes.begin(), boxes.end(),
+                                 [&](const auto& box) { return set.distancesTo(box)[best] > 0.0; }),
+                  boxes.end());
+    } while (!boxes.empty());
+    HalfSpaces result{Points(chosen.size(), 3), Vector(chosen.size())};
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      result.normals.row(row) = set.normals.row(chosen[i]);
+      result.limits[row] = set.limits[chosen[i]];
+    }
+    return result;
+  }
+
   StablePoses posesAt(const Vec3& centre) const { return stablePoses(hull_, centre, kBarrier); }
 
   bool keepsAnotherRest(const Eigen::AlignedBox3d& box) const {

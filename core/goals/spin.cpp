@@ -40,8 +40,8 @@ public:
 
   GoalConstraints inequalities(const Moments& massMoments) const override {
     const MassProperties body = massProperties(massMoments);
-    const GoalConstraints height{Vector::Constant(1, -body.centerOfMass.z()),
-                                 -massPropertyGradients(body).centerOfMass.row(2)};
+    GoalConstraints height{Vector::Constant(1, -body.centerOfMass.z()),
+                           -massPropertyGradients(body).centerOfMass.row(2)};
     if (isRelaxed_) return height;
     const GoalConstraints moment =
         notTheMiddleMoment(massMoments, TurnsAbout::Tip, task_.solidInertia);

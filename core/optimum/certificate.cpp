@@ -190,6 +190,22 @@ double positivePartBound(const Moments& quadric, const TriangleTree& surface, do
   return UpperBound(quadric, surface, wall).refine(enough);
 }
 
+namespace {
+
+/// How much w has at least, if that is positive.
+std::optional<double> marginOf(const Eigen::Matrix<double, 11, 1>& w, const Moments& solid,
+                               double fillDensity, const TriangleTree& surface, double wall) {
+  const double rounding =
+      kRounding * (w.head<10>().cwiseProduct(solid).cwiseAbs().sum() + std::abs(w[10]));
+  const double ofSolid = w.head<10>().dot(solid) + w[10] - rounding;
+  if (ofSolid <= 0.0) return std::nullopt;
+  const Moments worth = (1.0 - fillDensity) * w.head<10>();
+  const double margin = ofSolid - positivePartBound(worth, surface, wall, ofSolid);
+  return margin > 0.0 ? std::optional(margin) : std::nullopt;
+}
+
+} // namespace
+
 std::optional<Certificate> certificate(const LinearConditions& conditions, double wantedLevel,
                                        const LevelBound& bound, const Moments& solid,
                                        double fillDensity, const TriangleTree& surface,
@@ -198,14 +214,22 @@ std::optional<Certificate> certificate(const LinearConditions& conditions, doubl
   result.multipliers = bound.multipliers;
   result.rows = conditions.atZero + wantedLevel * conditions.slopes;
   result.functional = result.rows.transpose() * result.multipliers;
-  const auto& w = result.functional;
-  const double rounding =
-      kRounding * (w.head<10>().cwiseProduct(solid).cwiseAbs().sum() + std::abs(w[10]));
-  const double ofSolid = w.head<10>().dot(solid) + w[10] - rounding;
-  if (ofSolid <= 0.0) return std::nullopt;
-  const Moments worth = (1.0 - fillDensity) * w.head<10>();
-  result.margin = ofSolid - positivePartBound(worth, surface, wall, ofSolid);
-  if (!(result.margin > 0.0)) return std::nullopt;
+  const auto margin = marginOf(result.functional, solid, fillDensity, surface, wall);
+  if (!margin) return std::nullopt;
+  result.margin = *margin;
+  return result;
+}
+
+std::optional<Certificate> certificate(const Vec3& normal, double limit, const Moments& solid,
+                                       double fillDensity, const TriangleTree& surface,
+                                       double wall) {
+  Certificate result;
+  result.functional.setZero();
+  result.functional[0] = limit;
+  result.functional.segment<3>(1) = -normal;
+  const auto margin = marginOf(result.functional, solid, fillDensity, surface, wall);
+  if (!margin) return std::nullopt;
+  result.margin = *margin;
   return result;
 }
 

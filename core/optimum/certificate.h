@@ -9,12 +9,12 @@
 
 namespace massprops {
 
-/// A functional w of (M, 1), working frame, density 1, that is ≤ 0 for every body that meets the
-/// conditions, for it is their sum with the multipliers; and yet at least `margin` > 0 for every
-/// body that is hollow where the wall allows it. [docs/math.md "Out of reach"]
+/// A functional w of (M, 1), working frame, density 1, that is at least `margin` > 0 for every body
+/// that is hollow where the wall allows it; and yet ≤ 0 for every one that meets some conditions,
+/// for it is their sum with the multipliers. [docs/math.md "Out of reach"]
 struct Certificate {
   Eigen::Matrix<double, 11, 1> functional;
-  Vector multipliers; ///< ≥ 0, a condition each
+  Vector multipliers; ///< ≥ 0, a condition each; none: w itself says where centres of mass are
   AffineRows rows;    ///< the conditions at the wanted level
   double margin;
 };
@@ -26,6 +26,11 @@ struct Certificate {
 /// `solid`, `fillDensity`: as in `greatestLevel`. `wall`: working length.
 std::optional<Certificate> certificate(const LinearConditions& conditions, double wantedLevel,
                                        const LevelBound& bound, const Moments& solid,
+                                       double fillDensity, const TriangleTree& surface,
+                                       double wall);
+
+/// The proof that no centre of mass is outside of a half-space, w being limit m − normal·S.
+std::optional<Certificate> certificate(const Vec3& normal, double limit, const Moments& solid,
                                        double fillDensity, const TriangleTree& surface,
                                        double wall);
 

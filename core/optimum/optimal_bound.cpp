@@ -231,7 +231,7 @@ OptimalBound optimalBound(const Goal& goal, const Weights& weights, const Moment
   bound.violation = largestViolation(goal, bound.massMoments);
   findLeastAboutAxis(goal, weights, solid, fillDensity, cells, bound);
   if (!isMeasured && bound.violation > OptimalBound::kReachable) findLevels();
-  bound.isOutOfReach =
+  bound.outOfReach =
       goal.noneCan(bound.massMoments, [&] { return achievableCentres(solid, fillDensity, cells); });
   return bound;
 }

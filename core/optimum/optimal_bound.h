@@ -31,8 +31,9 @@ struct OptimalBound {
   /// meets them and the goal has no measure.
   std::vector<LevelBound> levels;
   double wantedLevel = 0.0; ///< of the goal
-  /// For certain: no cavity does what the goal asks for, see `Goal::noneCan`.
-  bool isOutOfReach = false;
+  /// If no cavity that has its centre of mass within these does what the goal asks for: they hold
+  /// all that cavities can have, as far as the cells tell. See `Goal::noneCan`.
+  std::optional<HalfSpaces> outOfReach;
   /// (1, x, y, z, xx, yy, zz, xy, yz, zx)·quadric > 0 where the body is hollow.
   Moments quadric = Moments::Zero();
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace massprops {
 namespace {
@@ -71,11 +72,11 @@ private:
 /// One end of what is open.
 class End {
 public:
-  End(const RatioProblem& problem, double open, const Moments& start)
+  End(const RatioProblem& problem, double open, Moments start)
       : rows_(problem.across.rows() + problem.equal.rows() + problem.less.rows() +
                   problem.cone.rows(),
               11),
-        divisor_(problem.divisor), body_(start) {
+        divisor_(problem.divisor), body_(std::move(start)) {
     rows_ << problem.across, problem.equal, problem.less, problem.cone;
     if (open != 0.0) rows_(problem.across.rows() + problem.equal.rows() - 1, 10) -= open;
   }

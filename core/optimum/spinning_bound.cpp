@@ -98,7 +98,7 @@ private:
       const auto lowest = std::min_element(
           boxes.begin(), boxes.end(), [](const Box& a, const Box& b) { return a.bound < b.bound; });
       const bool mayGain = std::max(lowest->gainByHeight, lowest->gainByLinear) > 0.0;
-      const SpinningBound bound{std::min(known, lowest->bound), functionalOf(*lowest), problems};
+      SpinningBound bound{std::min(known, lowest->bound), functionalOf(*lowest), problems};
       if (bound.isNear(known) || problems >= kMostProblems || !mayGain) return bound;
       const Box box = *lowest;
       boxes.erase(lowest);
@@ -140,8 +140,8 @@ private:
 
   /// I_xx − I_zz, I_yy − I_zz and I_xy about the point, or their opposites.
   AffineRows coneOf(Axial axial) const {
-    if (axial == Axial::Any) return AffineRows(0, 11);
-    AffineRows cone(3, 11);
+    AffineRows cone(axial == Axial::Any ? 0 : 3, 11);
+    if (axial == Axial::Any) return cone;
     cone << q(6) - q(4), q(6) - q(5), -q(7);
     return (axial == Axial::Greatest ? 1.0 : -1.0) / task_.solidInertia * cone;
   }

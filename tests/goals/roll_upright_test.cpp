@@ -121,7 +121,13 @@ TEST(RollUprightGoal, KnowsWhenNoCentreOfMassCan) {
     set.limits << 0.1, 0.1, high, 0.1, 0.1, -low;
     return [set] { return set; };
   };
-  EXPECT_TRUE(goal->noneCan(lying, slab(0.35, 0.6))); // above the middle of the foot, 0.3
+  const auto needed = goal->noneCan(lying, slab(0.35, 0.6)); // above the middle of the foot, 0.3
+  ASSERT_TRUE(needed);
+  // It names what will do, wider if possible: that centres are not lower, at least.
+  EXPECT_LE(needed->limits.size(), 6);
+  EXPECT_TRUE(needed->contain(Vec3(0, 0, 0.35)));
+  EXPECT_FALSE(needed->contain(Vec3(0, 0, 0.3)));
+  EXPECT_TRUE(goal->noneCan(lying, [&] { return *needed; }));
   EXPECT_FALSE(goal->noneCan(lying, slab(0.2, 0.6)));
   EXPECT_FALSE(goal->noneCan(bodyAt({0, 0, 0.15}), slab(0.35, 0.6))); // there is one that does
 }
@@ -190,6 +196,7 @@ TEST(RollUpright, OfTheSampleIsReachedWithAThinWallAndProvenImpossibleWithAThick
   EXPECT_EQ(std::get<int>(thin.at("resting_faces_after")), 1);
   const Report thick = rolled(model, 0.02 * diagonal);
   EXPECT_FALSE(truth(thick, "solved"));
+  EXPECT_TRUE(truth(thick, "certified"));
   const std::string message = std::get<std::string>(thick.at("message"));
   EXPECT_NE(message.find("it can come to rest on " + toString(thick.at("resting_faces_after")) +
                          " different faces"),

@@ -133,6 +133,25 @@ TEST_F(Proof, BoundsTheBestBodyCloselyByDuality) {
   EXPECT_GE(bound_.level, bound_.reached);
 }
 
+TEST(Certificate, IsOnlyFoundForHalfSpacesThatHoldAllCentres) {
+  const TriangleMesh cube = standingCube();
+  const TriangleTree surface(cube.vertices, cube.faces);
+  const Moments solid = moments(cube.vertices, cube.faces);
+  // Hollow above h, walls of 0.1: c_z = (1/2 − 0.64 (0.9² − h²)/2)/(1 − 0.64 (0.9 − h)).
+  double lowest = 1.0;
+  for (double h = 0.1; h < 0.9; h += 1e-4) {
+    lowest = std::min(lowest, (0.5 - 0.32 * (0.81 - h * h)) / (1 - 0.64 * (0.9 - h)));
+  }
+  for (const double beyond : {2e-3, -2e-3}) {
+    const auto proof = certificate(-Vec3::UnitZ(), -lowest + beyond, solid, 0.0, surface, 0.1);
+    ASSERT_EQ(proof.has_value(), beyond > 0.0);
+    if (!proof) continue;
+    EXPECT_GT(proof->margin, 0.0);
+    EXPECT_EQ(proof->functional[3], 1.0);
+    EXPECT_EQ(proof->functional[0], -lowest + beyond);
+  }
+}
+
 TEST(Certificate, IsOnlyFoundForMassesBelowTheLeast) {
   const TriangleMesh cube = standingCube();
   const TriangleTree surface(cube.vertices, cube.faces);
