@@ -68,6 +68,7 @@ int main(int argc, char** argv) {
     options.goal = c.goal;
     options.innerLowerBound =
         wall * (model.vertices.colwise().maxCoeff() - model.vertices.colwise().minCoeff()).norm();
+    if (argc > 2) options.cavityShape = static_cast<CavityShape>(std::atoi(argv[2]));
     c.change(options);
     const Result result = optimizeMassProperties(model, options);
     const std::string verdict = c.verdict;

@@ -18,12 +18,13 @@ Result run(const TriangleMesh& model, const Options& options, const Progress& pr
   const Preparation prepared = prepare(model, options, bar);
   // What moves inwards, its skeleton and harmonics; the best that any cavity could do.
   const Foundation foundation = coarsen(prepared, options, bar);
-  // Offsets that serve the goal best, within bounds that close in until nothing crosses.
+  // Offsets that serve the goal best, within bounds that close in until nothing crosses; where they
+  // fall short, what lies behind the walls on one side of the best quadric.
   const Search found = search(prepared, foundation, options, bar);
   // The surfaces in the model's own place, and everything measured on them.
   Result result = deliver(prepared, foundation, found, options, bar);
   result.report = report(prepared, foundation, found, options);
-  if (options.showAnswer) draw(prepared, foundation, found, bar, result);
+  if (options.showAnswer) draw(prepared, foundation, found, options, bar, result);
   result.report.add("seconds_total", total.seconds());
   bar.show(100, "Done");
   return result;

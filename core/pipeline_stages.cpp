@@ -5,6 +5,7 @@
 #include "core/answer/skeleton_marks.h"
 #include "core/base/parallel.h"
 #include "core/base/tolerances.h"
+#include "core/best/best_cavity.h"
 #include "core/goals/registry.h"
 #include "core/model/frame.h"
 #include "core/reduced/hollow_body.h"
@@ -12,6 +13,7 @@
 
 #include <exception>
 #include <new>
+#include <string>
 #include <utility>
 
 namespace massprops {
@@ -57,6 +59,25 @@ Points representable(const Options& options, const Points& points) {
   return options.representable ? options.representable(points) : points;
 }
 
+/// What is asked of a cavity, however it is found.
+CavityTask taskOf(const Goal& goal, const Preparation& model, const Foundation& foundation,
+                  const Options& options) {
+  const PosedModel& posed = model.posed;
+  CavityTask task{model.surface, goal, {}, options.weights};
+  task.model.surface = foundation.coarse.moving;
+  task.model.fillDensity = fillingSeenBy(options);
+  task.model.solidMoments = model.solidMoments;
+  task.model.isOpen = posed.open.has_value();
+  if (posed.open) task.open = &*posed.open;
+  task.inputMoments = model.solidMoments + moments(posed.cavities.vertices, posed.cavities.faces);
+  task.wall = posed.wall;
+  task.bound = foundation.bound;
+  task.deliverable = [&](const Points& working) {
+    return toWorking(posed.frame, representable(options, toModel(posed.frame, working)));
+  };
+  return task;
+}
+
 /// The search for a cavity with offsets along directions of at least this clearance.
 CavityTask taskAlong(double wantedClearance, const Goal& goal, const Preparation& model,
                      const Foundation& foundation, const Options& options) {
@@ -69,32 +90,112 @@ CavityTask taskAlong(double wantedClearance, const Goal& goal, const Preparation
                         levelAtRim(moving.vertices, moving.faces, posed.isLid, *posed.open, axis),
                         wantedClearance)
           : offsetField(moving.vertices, moving.faces, axis, wantedClearance);
-  CavityTask task{model.surface, goal, {}, options.weights};
-  task.model.surface = foundation.coarse.moving;
+  CavityTask task = taskOf(goal, model, foundation, options);
   task.model.inner = boundsKeeping(posed.wall, model, moving, field, options);
   if (moves(options)) task.model.outer = boundsOfOuter(model, field, options);
   task.model.field = std::move(field);
-  task.model.fillDensity = fillingSeenBy(options);
-  task.model.solidMoments = model.solidMoments;
-  task.model.isOpen = posed.open.has_value();
-  if (posed.open) task.open = &*posed.open;
-  task.inputMoments = model.solidMoments + moments(posed.cavities.vertices, posed.cavities.faces);
-  task.wall = posed.wall;
-  task.bound = foundation.bound;
   const bool followsOuter = options.goal == GoalKind::Float ||
                             options.goal == GoalKind::StandEmptyAndFilled ||
                             options.goal == GoalKind::RollUpright;
   if (moves(options) && followsOuter) {
     task.goalFor = [&](const Points& outer) { return makeGoal(options, posed, outer); };
   }
-  task.deliverable = [&](const Points& working) {
-    return toWorking(posed.frame, representable(options, toModel(posed.frame, working)));
-  };
   return task;
 }
 
 bool keepsConstraints(const CavityTask& task, const CavityResult& cavity) {
   return cavity.status == CavityStatus::Found && hollowBody(task, cavity).violation <= kFeasibility;
+}
+
+/// Whether the outer surface is moved inwards to find a cavity.
+bool movesInwards(const Preparation& model, const Options& options) {
+  return options.cavityShape != CavityShape::BestPossible || moves(options) || model.posed.open;
+}
+
+/// The best offset surface.
+Search searchOffsets(const Preparation& model, const Foundation& foundation, const Options& options,
+                     ProgressBar& bar) {
+  bar.show(model.schedule.directions, "Offset directions");
+  const auto taskFor = [&](const Goal& goal, double clearance) {
+    return taskAlong(clearance, goal, model, foundation, options);
+  };
+  const auto searchFor = [&](const CavityTask& task) {
+    return bestCavity(
+        task, [&] { return taskFor(task.goal, kSteepClearance); },
+        bar.within(model.schedule.search, Schedule::kEnd, "Optimization"));
+  };
+  Search result{taskFor(*model.goal, kSlantedClearance), {}};
+  bar.show(model.schedule.search, "Optimization");
+  const std::unique_ptr<Goal> instead = model.goal->insteadOfConstraints();
+  const bool isOutOfReach = foundation.bound && !foundation.bound->isReachable();
+  const std::unique_ptr<Goal> relaxed = isOutOfReach ? nullptr : model.goal->relaxed();
+  if (relaxed) result.cavity = searchFor(taskFor(*relaxed, kSlantedClearance));
+  const bool isDone = relaxed && keepsConstraints(result.task, result.cavity);
+  if (!isDone && !(instead && isOutOfReach)) {
+    CavityResult found = searchFor(result.task);
+    found.effort += result.cavity.effort;
+    result.cavity = std::move(found);
+  }
+  if (instead && (isOutOfReach || !keepsConstraints(result.task, result.cavity))) {
+    CavityTask task = taskFor(*instead, kSlantedClearance);
+    task.bound.reset(); // of another objective
+    CavityResult other = searchFor(task);
+    other.effort += result.cavity.effort;
+    result.cavity = std::move(other);
+  }
+  return result;
+}
+
+void judge(const Preparation& model, const Options& options, Search& found) {
+  const bool isFound = found.cavity.status == CavityStatus::Found;
+  const TriangleMesh cavity{found.cavity.inner, found.cavity.cavity.faces};
+  const bool isHollow = isFound && cavity.faces.rows() > 0;
+  found.verdictAfter =
+      makeVerdict(options, model.posed, isFound ? found.cavity.outer : model.posed.vertices,
+                  isHollow ? &cavity : nullptr);
+}
+
+/// Why the best possible cavity is worth looking for; empty: it is not.
+std::string reasonForBestPossible(const Options& options, const Search& found) {
+  if (options.cavityShape == CavityShape::BestPossible) return "as asked for";
+  if (found.cavity.status == CavityStatus::NoRoom) return "the offset surface has no room";
+  const bool isFound = found.cavity.status == CavityStatus::Found;
+  const Body before = inputBody(found.task);
+  const Body after = isFound ? hollowBody(found.task, found.cavity) : before;
+  const double gap = gapToBound(*found.task.bound, before, after);
+  constexpr double kFar = 0.03;
+  if (gap > kFar) {
+    return "the offset surface leaves " + toString(100.0 * gap) + " % of what is possible";
+  }
+  const bool isSolved =
+      after.violation <= kFeasibility && found.verdictAfter->isReached(after.mass);
+  return isSolved || gap == 0.0 ? "" : "the offset surface misses the goal";
+}
+
+/// Takes it where it is asked for or serves better.
+void considerBestPossible(const Preparation& model, const Options& options, ProgressBar& bar,
+                          Search& found) {
+  found.shapeReason = "as asked for";
+  if (options.cavityShape == CavityShape::Offset) return;
+  if (moves(options) || model.posed.open) {
+    found.shapeReason = "the best possible cavity needs a closed surface that rests";
+    return;
+  }
+  found.shapeReason = "it comes near to what is possible";
+  if (!found.task.bound) return;
+  const std::string reason = reasonForBestPossible(options, found);
+  if (reason.empty()) return;
+  bar.show(Schedule::kEnd, "Best possible cavity");
+  CavityResult best = bestPossibleCavity(found.task);
+  best.effort += found.cavity.effort;
+  if (options.cavityShape != CavityShape::BestPossible &&
+      !servesBetter(found.task, best, found.cavity)) {
+    found.shapeReason = "the best possible cavity's triangles serve no better";
+    return;
+  }
+  found.cavity = std::move(best);
+  found.shapeReason = reason;
+  judge(model, options, found);
 }
 
 /// Of an answer that serves the goal.
@@ -184,6 +285,11 @@ Foundation coarsen(const Preparation& model, const Options& options, ProgressBar
         checkCrossings);
   };
   try {
+    if (!movesInwards(model, options)) {
+      result.coarse.moving = std::make_shared<const MovingSurface>();
+      inParallel(findBound, checkCrossings);
+      return result;
+    }
     // The bound needs no copies: both cores work.
     inParallel(findBound, coarsenModel);
   } catch (const InvalidInput&) {
@@ -200,54 +306,28 @@ Foundation coarsen(const Preparation& model, const Options& options, ProgressBar
 
 Search search(const Preparation& model, const Foundation& foundation, const Options& options,
               ProgressBar& bar) {
-  bar.show(model.schedule.directions, "Offset directions");
-  const auto taskFor = [&](const Goal& goal, double clearance) {
-    return taskAlong(clearance, goal, model, foundation, options);
-  };
-  const auto searchFor = [&](const CavityTask& task) {
-    return bestCavity(
-        task, [&] { return taskFor(task.goal, kSteepClearance); },
-        bar.within(model.schedule.search, Schedule::kEnd, "Optimization"));
-  };
-  Search result{taskFor(*model.goal, kSlantedClearance), {}};
-  bar.show(model.schedule.search, "Optimization");
-  const std::unique_ptr<Goal> instead = model.goal->insteadOfConstraints();
-  const bool isOutOfReach = foundation.bound && !foundation.bound->isReachable();
-  const std::unique_ptr<Goal> relaxed = isOutOfReach ? nullptr : model.goal->relaxed();
-  if (relaxed) result.cavity = searchFor(taskFor(*relaxed, kSlantedClearance));
-  const bool isDone = relaxed && keepsConstraints(result.task, result.cavity);
-  if (!isDone && !(instead && isOutOfReach)) {
-    CavityResult found = searchFor(result.task);
-    found.effort += result.cavity.effort;
-    result.cavity = std::move(found);
-  }
-  if (instead && (isOutOfReach || !keepsConstraints(result.task, result.cavity))) {
-    CavityTask task = taskFor(*instead, kSlantedClearance);
-    task.bound.reset(); // of another objective
-    CavityResult other = searchFor(task);
-    other.effort += result.cavity.effort;
-    result.cavity = std::move(other);
-  }
-  const bool isFound = result.cavity.status == CavityStatus::Found;
+  Search result = movesInwards(model, options)
+                      ? searchOffsets(model, foundation, options, bar)
+                      : Search{taskOf(*model.goal, model, foundation, options), {}};
   result.verdictBefore = makeVerdict(options, model.posed, model.posed.vertices);
-  const TriangleMesh cavity{result.cavity.inner, result.cavity.cavity.faces};
-  const bool isHollow = isFound && cavity.faces.rows() > 0;
-  result.verdictAfter =
-      makeVerdict(options, model.posed, isFound ? result.cavity.outer : model.posed.vertices,
-                  isHollow ? &cavity : nullptr);
+  judge(model, options, result);
+  considerBestPossible(model, options, bar, result);
   findPrintMargins(model, result);
   proveOutOfReach(model, options, result);
   if (result.cavity.status != CavityStatus::NoRoom) return result;
 
   const Stopwatch time;
   constexpr int kFound = 99; // before the report
-  result.largestWall = largestWall(
-      result.task,
-      [&](double wall) {
-        return boundsKeeping(wall, model, *foundation.coarse.moving, result.task.model.field,
-                             options);
-      },
-      bar.within(Schedule::kEnd, kFound, "Largest wall that leaves room"));
+  const auto progress = bar.within(Schedule::kEnd, kFound, "Largest wall that leaves room");
+  result.largestWall = movesInwards(model, options)
+                           ? largestWall(
+                                 result.task,
+                                 [&](double wall) {
+                                   return boundsKeeping(wall, model, *foundation.coarse.moving,
+                                                        result.task.model.field, options);
+                                 },
+                                 progress)
+                           : largestWallForBestPossible(result.task, progress);
   result.secondsLargestWall = time.seconds();
   return result;
 }
@@ -272,6 +352,7 @@ Report report(const Preparation& model, const Foundation& foundation, const Sear
   stages.repairs = model.solid.repairs();
   stages.skeletonFailures = coarse.skeleton.failedComponents;
   stages.largestWall = found.largestWall;
+  stages.shapeReason = found.shapeReason;
   stages.secondsCheck = model.seconds + foundation.secondsCrossings;
   stages.secondsCopy = coarse.secondsCopy;
   stages.secondsSkeleton = coarse.secondsSkeleton;
@@ -287,7 +368,7 @@ Report report(const Preparation& model, const Foundation& foundation, const Sear
 }
 
 void draw(const Preparation& model, const Foundation& foundation, const Search& found,
-          ProgressBar& bar, Result& result) {
+          const Options& options, ProgressBar& bar, Result& result) {
   if (found.cavity.status != CavityStatus::Found) return;
   bar.show(97, "Picture of the answer");
   PictureResult drawn = pictureOf(model.posed, found.task, *found.verdictAfter, found.cavity);
@@ -296,6 +377,7 @@ void draw(const Preparation& model, const Foundation& foundation, const Search& 
     result.report.add("picture", drawn.failure);
     return;
   }
+  if (!movesInwards(model, options)) return;
   const Coarsening& coarse = foundation.coarse;
   ColouredMesh& skeleton = result.picture->skeleton;
   skeleton = skeletonMarks(coarse.moving->carrier.mesh, coarse.skeleton);

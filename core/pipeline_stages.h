@@ -20,6 +20,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace massprops {
@@ -71,7 +72,7 @@ struct Preparation {
 Preparation prepare(const TriangleMesh& model, const Options& options, ProgressBar& bar,
                     Resolution resolution = Resolution::Coarse);
 
-/// What moves inwards, and what the best of all cavities could do.
+/// What moves inwards, if anything does, and what the best of all cavities could do.
 struct Foundation {
   Coarsening coarse;
   std::optional<OptimalBound> bound;
@@ -85,6 +86,7 @@ Foundation coarsen(const Preparation& model, const Options& options, ProgressBar
 struct Search {
   CavityTask task;
   CavityResult cavity;
+  std::string shapeReason = {}; ///< why it has this shape
   /// Of the model, and of the outer surface as it has become.
   std::unique_ptr<Verdict> verdictBefore = {}, verdictAfter = {};
   double largestWall = 0.0; ///< working length; when the wanted one leaves no room
@@ -108,6 +110,6 @@ Report report(const Preparation& model, const Foundation& foundation, const Sear
 
 /// The picture, or a key of the report that says why there is none.
 void draw(const Preparation& model, const Foundation& foundation, const Search& found,
-          ProgressBar& bar, Result& result);
+          const Options& options, ProgressBar& bar, Result& result);
 
 } // namespace massprops

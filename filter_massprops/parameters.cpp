@@ -23,6 +23,10 @@ QString goalMeaning() {
   return QString::fromStdString(meaning);
 }
 
+QStringList shapeNames() {
+  return {"Automatic", "Offset surface", "Best possible"};
+}
+
 QStringList axisNames() {
   return {"+Z", "+Y", "+X", "-Z", "-Y", "-X"};
 }
@@ -89,6 +93,12 @@ RichParameterList dialogParameters(double diagonal) {
       RichEnum("goal", static_cast<int>(defaults.goal), goalEntries(), "Goal", goalMeaning()));
   list.addParam(RichEnum("up_axis", static_cast<int>(defaults.upAxis), axisNames(), "Up axis",
                          "Axis of the scene that points up when the print is used."));
+  list.addParam(RichEnum("cavity_shape", static_cast<int>(defaults.cavityShape), shapeNames(),
+                         "Cavity",
+                         "Offset surface: the outer surface moved inwards. Best possible: all "
+                         "that the wall leaves on one side of the best plane or quadric. "
+                         "Automatic: the offset surface, and the best possible one where that "
+                         "misses the goal or leaves more than 3 % of what is possible."));
   addLength("inner_lower_bound", 0.01F * range, "Minimum wall [mm]",
             "Least distance of the cavity from the outer surface, in model units (read as mm) or "
             "percent of the bounding-box diagonal. Parts too thin for it stay solid.");
@@ -173,6 +183,7 @@ RichParameterList dialogParameters(double diagonal) {
 Options optionsFrom(const RichParameterList& parameters) {
   Options options;
   options.goal = static_cast<GoalKind>(entry(parameters, "goal", goalEntries()));
+  options.cavityShape = static_cast<CavityShape>(entry(parameters, "cavity_shape", shapeNames()));
   options.basisSize = parameters.getInt("basis_k");
   options.radiusX = unlessZero(number(parameters, "radius_x"));
   options.radiusY = unlessZero(number(parameters, "radius_y"));

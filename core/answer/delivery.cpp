@@ -38,6 +38,13 @@ Delivery deliver(const Solid& solid, const PosedModel& posed, const CavityTask& 
                  const std::function<Points(const Points&)>& representable) {
   Delivery result;
   if (cavity.status != CavityStatus::Found) return result;
+  if (cavity.shape == CavityShape::BestPossible) {
+    result.inner = {representable(toModel(posed.frame, cavity.inner)), cavity.cavity.faces};
+    flip(result.inner.faces);
+    result.innerWall = wallOf(task, cavity) * posed.frame.length;
+    if (!inputServes(solid, task)) result.outer = submesh(solid.vertices(), solid.faces()).mesh;
+    return result;
+  }
   const std::vector<int> places = placesInSolid(posed, vertexOf);
   Points positions = representable(toModel(posed.frame, placed(cavity.inner, places)));
   Faces faces = cavity.cavity.faces;

@@ -150,6 +150,10 @@ int solidVertices(const CavityTask& task, const CavityResult& cavity) {
   return static_cast<int>(std::count(mark.begin(), mark.end(), 1));
 }
 
+std::string shapeOf(const CavityResult& cavity) {
+  return cavity.shape == CavityShape::BestPossible ? "best possible: " : "offset surface: ";
+}
+
 /// What the answer cost.
 void addEffort(const CavityResult& cavity, const Stages& stages, Report& report) {
   report.add("stop_reason", cavity.stopReason);
@@ -222,7 +226,10 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Ve
   addRepairs(stages.repairs, report);
   report.add("skeleton_failures", stages.skeletonFailures);
   if (posed.open) report.add("openings", posed.open->openings);
-  report.add("solid_vertices", solidVertices(task, cavity));
+  if (hasCavity) report.add("cavity_shape", shapeOf(cavity) + stages.shapeReason);
+  if (cavity.shape == CavityShape::Offset) {
+    report.add("solid_vertices", solidVertices(task, cavity));
+  }
   addEffort(cavity, stages, report);
   return report;
 }

@@ -10,6 +10,7 @@
 #include "core/reduced/cavity_search.h"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace massprops {
@@ -18,6 +19,7 @@ namespace massprops {
 struct Stages {
   Repairs repairs;          ///< of the input
   int skeletonFailures = 0; ///< components on which the mean curvature flow failed
+  std::string shapeReason;  ///< why the cavity has the shape that it has
   double largestWall = 0.0; ///< working length; of use when there is no room for a cavity
   std::optional<PrintMargins> margins; ///< where the goal is reached
   /// Of all the goal's conditions, where it is missed and that no cavity can reach it was proved.

@@ -50,7 +50,8 @@ std::optional<Picture> drawn(const PosedModel& posed, const CavityTask& task,
   Vec3 normal = Vec3(along.y(), -along.x(), 0.0).normalized();
   if (normal.x() < normal.y()) normal *= -1.0;
   Picture picture;
-  const Eigen::Index n = task.model.surface->vertices.rows();
+  // The strips of an open surface end on the outer one.
+  const Eigen::Index n = task.open != nullptr ? cavity.outer.rows() : cavity.inner.rows();
   const Submesh material = submesh(stacked(cavity.inner.topRows(n), cavity.outer),
                                    shellOf(task.surface.faces(), cavity.cavity.faces, n));
   const auto cavityVertices = std::count_if(material.vertexOf.begin(), material.vertexOf.end(),

@@ -21,6 +21,13 @@ enum class GoalKind {
   PublishedStand,
 };
 
+/// How the cavity is found, in the order of the dialog.
+enum class CavityShape {
+  Automatic,    ///< the offset surface, and the best possible one where that falls short
+  Offset,       ///< the outer surface moved inwards
+  BestPossible, ///< what lies behind the walls on one side of a quadric
+};
+
 /// In the order of the dialog.
 enum class UpAxis { PlusZ, PlusY, PlusX, MinusZ, MinusY, MinusX };
 
@@ -37,6 +44,7 @@ struct Weights {
 
 struct Options {
   GoalKind goal = GoalKind::Stand;
+  CavityShape cavityShape = CavityShape::Automatic;
   /// k, the number of harmonic basis functions; less than the number of vertices and at least the
   /// number of the goal's equalities (goals/registry.h).
   int basisSize = 36;

@@ -1,6 +1,7 @@
 // Optimise, inspect, tighten the bounds where something is wrong, and go on.
 #pragma once
 
+#include "core/base/options.h"
 #include "core/base/types.h"
 #include "core/check/inspection.h"
 #include "core/goals/goal.h"
@@ -53,12 +54,13 @@ struct SearchEffort {
 
 struct CavityResult {
   CavityStatus status = CavityStatus::NoRoom;
-  /// Delivered positions in the working frame, a row a vertex of what moves; of an open surface's
-  /// cavity twice as many.
+  CavityShape shape = CavityShape::Offset; ///< never Automatic
+  /// Delivered positions in the working frame, of an offset surface a row a vertex of what moves,
+  /// of an open surface's cavity twice as many.
   Points inner;
   Points outer;         ///< of the outer surface, moved or not
   CavitySurface cavity; ///< over `inner`; no faces: nothing can be hollowed
-  Vector innerOffsets, outerOffsets;
+  Vector innerOffsets, outerOffsets; ///< of an offset surface
   Inspection inspection;
   SearchEffort effort;
   std::string stopReason;

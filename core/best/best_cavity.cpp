@@ -1,0 +1,115 @@
+#include "core/best/best_cavity.h"
+
+#include "core/base/stopwatch.h"
+#include "core/base/tolerances.h"
+#include "core/best/polish.h"
+#include "core/contour/cavity_contour.h"
+#include "core/contour/wall_keeping.h"
+#include "core/reduced/hollow_body.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace massprops {
+namespace {
+
+constexpr double kCubes = 40000.0;
+
+Points delivered(const CavityTask& task, const Points& working) {
+  return task.deliverable ? task.deliverable(working) : working;
+}
+
+/// How far rounding may move a point.
+double roundingOf(const CavityTask& task, const Points& points) {
+  return points.rows() == 0 ? 0.0 : (delivered(task, points) - points).rowwise().norm().maxCoeff();
+}
+
+CavityResult resultOf(const CavityTask& task, const TriangleMesh& mesh) {
+  CavityResult result;
+  result.shape = CavityShape::BestPossible;
+  result.status = CavityStatus::Found;
+  result.outer = task.surface.vertices();
+  result.inner = delivered(task, mesh.vertices);
+  result.cavity.faces = mesh.faces;
+  const Stopwatch time;
+  result.inspection = inspect(result.inner, mesh.faces, task.surface, task.wall, false);
+  result.effort.secondsInspection = time.seconds();
+  return result;
+}
+
+/// The contour as the goal would have it; as it was where that spoils it.
+CavityResult polished(const CavityTask& task, double wall, const CavityContour& found) {
+  constexpr double kFarthest = 0.3; // of a cube's edge
+  CavityResult best = resultOf(task, found.contour.mesh);
+  int evaluations = 0;
+  const auto offer = [&](const Contour& contour) {
+    CavityResult other = resultOf(task, contour.mesh);
+    const bool isClean = other.inspection.isClean();
+    if (!isClean || (best.inspection.isClean() && !servesBetter(task, other, best))) return;
+    best = std::move(other);
+  };
+  const auto adjust = [&](Moving moving, Contour& contour) {
+    evaluations += polish(task, task.bound->quadric, moving, kFarthest * found.edge, contour);
+  };
+  // Creases that move leave the walls' surface a little, and the constraints with it.
+  Contour whole = found.contour;
+  adjust(Moving::CutAndCreases, whole);
+  if (keepWall(task.surface, wall, whole.mesh).empty()) {
+    adjust(Moving::CutAlone, whole);
+    offer(whole);
+  }
+  Contour inside = found.contour;
+  adjust(Moving::CutAlone, inside);
+  offer(inside);
+  best.effort.evaluations = evaluations;
+  return best;
+}
+
+} // namespace
+
+CavityResult bestPossibleCavity(const CavityTask& task) {
+  const Stopwatch time;
+  double wall = task.wall;
+  CavityResult result;
+  constexpr int kRounds = 3;
+  for (int round = 1; round <= kRounds; ++round) {
+    const std::optional<CavityContour> found =
+        cavityContour(task.surface, wall, task.bound->quadric, kCubes);
+    if (!found || found->contour.mesh.faces.rows() == 0) {
+      result.stopReason = found ? "no room for the best possible cavity"
+                                : "the best possible cavity cannot be resolved";
+      break;
+    }
+    result = polished(task, wall, *found);
+    result.effort.rounds = round;
+    if (result.inspection.isClean()) break;
+    // Rounding took too much.
+    wall += 2.0 * roundingOf(task, found->contour.mesh.vertices);
+  }
+  result.shape = CavityShape::BestPossible;
+  if (result.status == CavityStatus::Found) {
+    if (!result.inspection.isClean()) {
+      result = {};
+    } else if (!servesBetter(task, hollowBody(task, result), inputBody(task))) {
+      result.status = CavityStatus::NoGain;
+    }
+  }
+  result.effort.secondsOptimization = time.seconds() - result.effort.secondsInspection;
+  return result;
+}
+
+double largestWallForBestPossible(const CavityTask& task,
+                                  const std::function<void(double)>& progress) {
+  constexpr int kHalvings = 10;
+  constexpr double kFewCubes = 8000.0;
+  double wall = task.wall;
+  for (int i = 1; i <= kHalvings; ++i) {
+    wall *= 0.5;
+    const std::optional<CavityContour> found = cavityContour(task.surface, wall, {}, kFewCubes);
+    if (progress) progress(static_cast<double>(i) / kHalvings);
+    if (found && found->contour.mesh.faces.rows() > 0) return wall;
+  }
+  return 0.0;
+}
+
+} // namespace massprops

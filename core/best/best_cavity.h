@@ -1,0 +1,21 @@
+// The best possible cavity as a surface.
+#pragma once
+
+#include "core/reduced/cavity_search.h"
+
+#include <functional>
+
+namespace massprops {
+
+/// What lies behind the walls on the positive side of the bound's quadric: its surface, adjusted so
+/// that the body of these triangles keeps the constraints. Passed inspection, as with
+/// `searchCavity`; status NoGain: the solid body serves the goal at least as well. The outer
+/// surface rests. \pre there is a bound, the surface is closed
+CavityResult bestPossibleCavity(const CavityTask& task);
+
+/// About the greatest wall below the wanted one that leaves room for a best possible cavity,
+/// working length; 0 when none was found down to a thousandth. `progress` as for `searchCavity`.
+double largestWallForBestPossible(const CavityTask& task,
+                                  const std::function<void(double)>& progress);
+
+} // namespace massprops

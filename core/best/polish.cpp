@@ -1,0 +1,99 @@
+#include "core/best/polish.h"
+
+#include "core/base/symmetric_eigen.h"
+#include "core/base/tolerances.h"
+#include "core/contour/region.h"
+#include "core/contour/shape_guard.h"
+#include "core/goals/objective.h"
+
+#include <cmath>
+
+namespace massprops {
+namespace {
+
+/// Where each vertex goes while the quadric rises by a unit of length; 0 for those that stay.
+Points directionsOf(const Region& region, Moving moving, const Contour& contour) {
+  const Points& vertices = contour.mesh.vertices;
+  Points directions = Points::Zero(vertices.rows(), 3);
+  InsetProbe probe(region);
+  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
+    const On on = contour.on[static_cast<std::size_t>(v)];
+    if (on != On::Cut && (on != On::Crease || moving == Moving::CutAlone)) continue;
+    const Vec3 x = vertices.row(v).transpose();
+    const Vec3 cut = cutAt(region, x).slope;
+    if (on == On::Cut) {
+      directions.row(v) = -cut.transpose();
+      continue;
+    }
+    const Vec3 inset = probe.at(x, region.wall).slope;
+    const Vec3 along = cut - cut.dot(inset) * inset;
+    constexpr double kSteep = 0.2; // where they are nearly parallel the crease would run away
+    if (along.squaredNorm() > kSteep)
+      directions.row(v) = -(along / along.squaredNorm()).transpose();
+  }
+  return directions;
+}
+
+/// Functions of unit mean square over the vertices that move, orthogonal there: of the terms of a
+/// quadric, or of a plane. n×r, 0 for those that stay.
+RowMatrix functionsOf(const Points& vertices, const Points& directions, Eigen::Index terms) {
+  RowMatrix values = RowMatrix::Zero(vertices.rows(), terms);
+  double count = 0.0;
+  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
+    if (directions.row(v).isZero(0.0)) continue;
+    const Vec3 x = vertices.row(v).transpose();
+    Moments all;
+    all << 1.0, x, x.cwiseAbs2(), x.x() * x.y(), x.y() * x.z(), x.z() * x.x();
+    values.row(v) = all.head(terms).transpose();
+    count += 1.0;
+  }
+  if (count == 0.0) return {};
+  const SymmetricEigen<Matrix> spectrum =
+      symmetricEigen(Matrix(values.transpose() * values / count));
+  constexpr double kLeastSquare = 1e-8; // of the largest
+  const Eigen::Index rank =
+      (spectrum.values.array() > kLeastSquare * spectrum.values[terms - 1]).count();
+  return values * spectrum.vectors.rightCols(rank) *
+         spectrum.values.tail(rank).cwiseInverse().cwiseSqrt().asDiagonal();
+}
+
+} // namespace
+
+int polish(const CavityTask& task, const Moments& quadric, Moving moving, double farthest,
+           Contour& contour) {
+  const Region region{task.surface, task.wall, nullptr, quadric};
+  const Faces& faces = contour.mesh.faces;
+  const Points start = contour.mesh.vertices;
+  const bool usesInertia = task.goal.usesInertia();
+  const Points directions = directionsOf(region, moving, contour);
+  constexpr double kUnit = 0.05; // of the farthest: what the solver's variables are 1 for
+  const RowMatrix functions =
+      kUnit * farthest * functionsOf(start, directions, usesInertia ? 10 : 4);
+  if (functions.size() == 0) return 0;
+  const auto displaced = [&](const Vector& q) {
+    return Points(start + (functions * q).asDiagonal() * directions);
+  };
+  const double filled = 1.0 - task.model.fillDensity;
+  const double solid = task.model.solidMoments[0];
+  const auto evaluateAt = [&](const Vector& q) {
+    const MomentsWithRates cavity = momentsWithRates(displaced(q), faces, directions, usesInertia);
+    MomentJacobian jacobian = MomentJacobian::Zero(10, functions.cols());
+    jacobian.topRows(cavity.rates.cols()) = cavity.rates.transpose() * functions;
+    return evaluateBody(task.goal, task.weights, task.model.solidMoments - filled * cavity.moments,
+                        -filled * jacobian, 1.0 - cavity.moments[0] / solid,
+                        -jacobian.row(0).transpose() / solid);
+  };
+  MinimizeOptions options;
+  options.feasibility = 0.1 * kFeasibility; // rounding needs the rest
+  options.range = 1.0 / kUnit;
+  options.maxEvaluations = 40;
+  const MinimizeResult result = minimize(evaluateAt, Vector::Zero(functions.cols()), options);
+  if (moving == Moving::CutAlone) {
+    contour.mesh.vertices = displaced(result.x);
+  } else {
+    moveSoundly(displaced(result.x), faces, contour.mesh.vertices);
+  }
+  return result.evaluations;
+}
+
+} // namespace massprops

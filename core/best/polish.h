@@ -1,0 +1,19 @@
+// The quadric's coefficients, adjusted on the triangles that stand for it.
+#pragma once
+
+#include "core/contour/dual_contour.h"
+#include "core/reduced/cavity_search.h"
+
+namespace massprops {
+
+/// Which vertices move: those of the cut along its normal, those of creases along what the walls
+/// leave, as far as triangles stay sound, so that the constraints hold nearly only.
+enum class Moving { CutAndCreases, CutAlone };
+
+/// Moves the vertices on the quadric as another quadric near it would have them, so that the body
+/// keeps the goal's constraints and serves its objective best. `farthest`: root mean square of the
+/// displacements, at most. How often the body was evaluated.
+int polish(const CavityTask& task, const Moments& quadric, Moving moving, double farthest,
+           Contour& contour);
+
+} // namespace massprops
