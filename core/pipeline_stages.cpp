@@ -164,7 +164,8 @@ std::string reasonForBestPossible(const Options& options, const Search& found) {
   const Body after = isFound ? hollowBody(found.task, found.cavity) : before;
   const double gap = gapToBound(*found.task.bound, before, after);
   constexpr double kFar = 0.03;
-  if (gap > kFar) {
+  // With a weight on smoothness it is far by intention.
+  if (gap > kFar && options.weights.smoothness == 0.0) {
     return "the offset surface leaves " + toString(100.0 * gap) + " % of what is possible";
   }
   const bool isSolved =

@@ -62,7 +62,14 @@ CavityResult polished(const CavityTask& task, double wall, const CavityContour& 
   adjust(Moving::CutAlone, inside);
   offer(inside);
   best.effort.evaluations = evaluations;
+  best.stopReason = "the limit's cavity, adjusted on its triangles";
   return best;
+}
+
+bool leavesRoom(const TriangleTree& surface, double wall) {
+  constexpr double kFewCubes = 8000.0;
+  const std::optional<CavityContour> found = cavityContour(surface, wall, {}, kFewCubes);
+  return found && found->contour.mesh.faces.rows() > 0;
 }
 
 } // namespace
@@ -76,7 +83,10 @@ CavityResult bestPossibleCavity(const CavityTask& task) {
     const std::optional<CavityContour> found =
         cavityContour(task.surface, wall, task.bound->quadric, kCubes);
     if (!found || found->contour.mesh.faces.rows() == 0) {
-      result.stopReason = found ? "no room for the best possible cavity"
+      result = {};
+      // Where there is room the limit's body is the solid one.
+      if (leavesRoom(task.surface, task.wall)) result.status = CavityStatus::NoGain;
+      result.stopReason = found ? "the best possible cavity is none"
                                 : "the best possible cavity cannot be resolved";
       break;
     }
@@ -101,13 +111,12 @@ CavityResult bestPossibleCavity(const CavityTask& task) {
 double largestWallForBestPossible(const CavityTask& task,
                                   const std::function<void(double)>& progress) {
   constexpr int kHalvings = 10;
-  constexpr double kFewCubes = 8000.0;
   double wall = task.wall;
   for (int i = 1; i <= kHalvings; ++i) {
     wall *= 0.5;
-    const std::optional<CavityContour> found = cavityContour(task.surface, wall, {}, kFewCubes);
+    const bool hasRoom = leavesRoom(task.surface, wall);
     if (progress) progress(static_cast<double>(i) / kHalvings);
-    if (found && found->contour.mesh.faces.rows() > 0) return wall;
+    if (hasRoom) return wall;
   }
   return 0.0;
 }

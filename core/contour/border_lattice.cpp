@@ -137,21 +137,51 @@ std::optional<Sample> bluntAt(const Corner& corner, double edge) {
   return Sample{(corner.inset->value + corner.cut->value - apart) / steepness, slope / steepness};
 }
 
+void sampleCorner(const Region& region, InsetProbe& probe, bool isNearWall, int c,
+                  BorderLattice& lattice) {
+  constexpr double kLeastValue = 1e-6;
+  Corner& corner = lattice.corners[at(c)];
+  const Vec3 x = lattice.positionOf(c);
+  if (isNearWall) corner.inset = probe.at(x, 2.0 * lattice.edge);
+  if (region.quadric) corner.cut = cutAt(region, x);
+  corner.blunt = bluntAt(corner, lattice.edge);
+  corner.isInside = corner.value() > kLeastValue * lattice.edge;
+}
+
 /// `isNearWall`: for every corner whether it has a cube that is not deep.
 void sample(const Region& region, const std::vector<char>& isNearWall, BorderLattice& lattice) {
   constexpr Eigen::Index kRun = 512;
-  constexpr double kLeastValue = 1e-6;
   forChunks(static_cast<Eigen::Index>(lattice.corners.size()), kRun, [&](const Chunk& chunk) {
     InsetProbe probe(region);
     for (auto c = static_cast<int>(chunk.begin); c < chunk.end; ++c) {
-      Corner& corner = lattice.corners[at(c)];
-      const Vec3 x = lattice.positionOf(c);
-      if (isNearWall[at(c)] != 0) corner.inset = probe.at(x, 2.0 * lattice.edge);
-      if (region.quadric) corner.cut = cutAt(region, x);
-      corner.blunt = bluntAt(corner, lattice.edge);
-      corner.isInside = corner.value() > kLeastValue * lattice.edge;
+      sampleCorner(region, probe, isNearWall[at(c)] != 0, c, lattice);
     }
   });
+}
+
+/// Adds the cubes beyond sides with corners on both sides of the border that are not there: the
+/// search for cubes takes surfaces for smoother than rounded distances are.
+void addMissing(const Region& region, BorderLattice& lattice) {
+  InsetProbe probe(region);
+  for (int cube = 0; cube < static_cast<int>(lattice.cubes.size()); ++cube) {
+    const unsigned inside = lattice.cornersInside(cube);
+    if (inside == 0 || inside == 255) continue;
+    const Place place = lattice.corners[at(lattice.cubes[at(cube)][0])].place;
+    for (int axis = 0; axis < 3; ++axis) {
+      constexpr std::array<unsigned, 3> kLowSide{0x55, 0x33, 0x0f};
+      for (const int step : {-1, 1}) {
+        const unsigned side = step < 0 ? kLowSide[at(axis)] : ~kLowSide[at(axis)] & 255U;
+        if ((inside & side) == 0 || (inside & side) == side) continue;
+        const Place other = place + step * Place::Unit(axis);
+        if (lattice.cubeAt.find(other) >= 0) continue;
+        const auto known = static_cast<int>(lattice.corners.size());
+        addCube(other, lattice);
+        for (int c = known; c < static_cast<int>(lattice.corners.size()); ++c) {
+          sampleCorner(region, probe, true, c, lattice);
+        }
+      }
+    }
+  }
 }
 
 /// Of a cube that is cut more than once the least of the corners inside goes out, which may spoil
@@ -245,6 +275,10 @@ BorderLattice borderLattice(const Region& region, double edge) {
     for (const int c : lattice.cubes.back()) isNearWall[at(c)] = 1;
   }
   sample(region, isNearWall, lattice);
+  addMissing(region, lattice);
+  for (auto c = static_cast<int>(all.size()); c < static_cast<int>(lattice.cubes.size()); ++c) {
+    all.push_back(c);
+  }
   tame(std::move(all), lattice);
   return lattice;
 }

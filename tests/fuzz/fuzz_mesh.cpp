@@ -223,6 +223,7 @@ Options someOptions(Bytes& bytes, double diagonal) {
   if ((flags & 8) != 0) options.fillDensity = 3.0 * bytes.share();
   if ((flags & 24) == 24) options.tippingAngle = 40.0 * bytes.share();
   if ((flags & 16) != 0) options.weights.volume = bytes.share();
+  options.cavityShape = static_cast<CavityShape>(bytes.below(3));
   if ((flags & 32) != 0) {
     options.representable = [](const Points& points) {
       return Points(points.cast<float>().cast<double>());

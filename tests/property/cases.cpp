@@ -574,6 +574,7 @@ PropertyCase makeCase(std::uint32_t seed, int number) {
   }
   if (chance.oneIn(5)) o.weights.volume = chance.between(0.0, 2.0);
   o.spinSpeed = chance.logBetween(100.0, 1e5);
+  o.cavityShape = static_cast<CavityShape>(chance.integer(0, 2));
   if (c.floats)
     o.representable = [](const Points& points) {
       return Points(points.cast<float>().cast<double>());
@@ -588,6 +589,8 @@ PropertyCase makeCase(std::uint32_t seed, int number) {
   if (o.goal == GoalKind::Float) {
     text << " water " << o.waterLevel << " of density " << o.waterDensity / o.density;
   }
+  if (o.cavityShape == CavityShape::Offset) text << " offset surface";
+  if (o.cavityShape == CavityShape::BestPossible) text << " best possible";
   if (o.tippingAngle > 0.0) text << " tipping angle " << o.tippingAngle;
   if (o.goal == GoalKind::Spin) text << " rpm " << o.spinSpeed;
   if (o.goal == GoalKind::Mass) text << " target " << o.targetMass;
