@@ -198,10 +198,11 @@ Evaluation evaluateShape(const BoundsTask& task, const Vector& field, const Shap
       -(cavity.rates.array().colwise() * bounded.slopes.array()).matrix().transpose() *
       task.functions;
   const double solid = model.solidMoments[0];
-  return evaluateBody(*task.goal, task.weights,
-                      shellMoments(model.solidMoments, cavity.moments, 1.0, model.fillDensity),
-                      (model.fillDensity - 1.0) * jacobian, (solid - cavity.moments[0]) / solid,
-                      -jacobian.row(0).transpose() / solid);
+  const double fill = model.fillings.front().density;
+  return evaluateBody(
+      *task.goal, task.weights,
+      {{shellMoments(model.solidMoments, cavity.moments, 1.0, fill), (fill - 1.0) * jacobian}},
+      (solid - cavity.moments[0]) / solid, -jacobian.row(0).transpose() / solid);
 }
 
 /// How bounds are kept.
@@ -311,7 +312,7 @@ void compareBounds(const Sample& sample) {
   const Foundation foundation = coarsen(prepared, options, bar);
   const Search found = search(prepared, foundation, options, bar);
   const BoundsTask task = boundsTask(found.task);
-  const double before = momentObjective(*task.goal, task.weights, found.task.inputMoments, 1.0);
+  const double before = momentObjective(*task.goal, task.weights, {found.task.inputMoments}, 1.0);
 
   std::vector<Outcome> outcomes;
   double best = before;

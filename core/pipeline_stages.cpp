@@ -65,7 +65,7 @@ CavityTask taskOf(const Goal& goal, const Preparation& model, const Foundation& 
   const PosedModel& posed = model.posed;
   CavityTask task{model.surface, goal, {}, options.weights};
   task.model.surface = foundation.coarse.moving;
-  task.model.fillDensity = fillingSeenBy(options);
+  task.model.fillings = fillingsSeenBy(options);
   task.model.solidMoments = model.solidMoments;
   task.model.isOpen = posed.open.has_value();
   if (posed.open) task.open = &*posed.open;
@@ -94,13 +94,22 @@ CavityTask taskAlong(double wantedClearance, const Goal& goal, const Preparation
   task.model.inner = boundsKeeping(posed.wall, model, moving, field, options);
   if (moves(options)) task.model.outer = boundsOfOuter(model, field, options);
   task.model.field = std::move(field);
-  const bool followsOuter = options.goal == GoalKind::Float ||
-                            options.goal == GoalKind::StandEmptyAndFilled ||
-                            options.goal == GoalKind::RollUpright;
+  const bool followsOuter =
+      options.goal == GoalKind::Float || options.goal == GoalKind::RollUpright;
   if (moves(options) && followsOuter) {
     task.goalFor = [&](const Points& outer) { return makeGoal(options, posed, outer); };
   }
   return task;
+}
+
+/// All states in which the best possible body is to serve the goal, where there is more than one
+/// with every level of contents between the limit's cells.
+Fillings statesOf(const Preparation& model, const Options& options) {
+  Fillings states = fillingsSeenBy(options);
+  if (states.size() < 2) return states;
+  const double density = states.back().density;
+  for (const double height : layerHeights(model.surface)) states.push_back({density, height});
+  return states;
 }
 
 bool keepsConstraints(const CavityTask& task, const CavityResult& cavity) {
@@ -119,7 +128,7 @@ Search searchOffsets(const Preparation& model, const Foundation& foundation, con
   const auto taskFor = [&](const Goal& goal, double clearance) {
     return taskAlong(clearance, goal, model, foundation, options);
   };
-  const auto searchFor = [&](const CavityTask& task) {
+  const auto searchFor = [&](CavityTask& task) {
     return bestCavity(
         task, [&] { return taskFor(task.goal, kSteepClearance); },
         bar.within(model.schedule.search, Schedule::kEnd, "Optimization"));
@@ -129,7 +138,10 @@ Search searchOffsets(const Preparation& model, const Foundation& foundation, con
   const std::unique_ptr<Goal> instead = model.goal->insteadOfConstraints();
   const bool isOutOfReach = foundation.bound && !foundation.bound->isReachable();
   const std::unique_ptr<Goal> relaxed = isOutOfReach ? nullptr : model.goal->relaxed();
-  if (relaxed) result.cavity = searchFor(taskFor(*relaxed, kSlantedClearance));
+  if (relaxed) {
+    CavityTask task = taskFor(*relaxed, kSlantedClearance);
+    result.cavity = searchFor(task);
+  }
   const bool isDone = relaxed && keepsConstraints(result.task, result.cavity);
   if (!isDone && !(instead && isOutOfReach)) {
     CavityResult found = searchFor(result.task);
@@ -218,7 +230,7 @@ void proveOutOfReach(const Preparation& model, const Options& options, Search& f
   const std::optional<OptimalBound>& bound = found.task.bound;
   if (!bound || (bound->isReachable() && !bound->outOfReach)) return;
   const Stopwatch time;
-  const double filling = fillingSeenBy(options);
+  const Fillings fillings = statesOf(model, options);
   const auto add = [&](std::optional<Certificate> proof) {
     if (proof) found.certificates.push_back(std::move(*proof));
     return proof.has_value();
@@ -228,13 +240,13 @@ void proveOutOfReach(const Preparation& model, const Options& options, Search& f
     const HalfSpaces& set = *bound->outOfReach;
     for (Eigen::Index i = 0; i < set.limits.size() && isProved; ++i) {
       isProved = add(certificate(set.normals.row(i).transpose(), set.limits[i], model.solidMoments,
-                                 filling, model.surface, model.posed.wall));
+                                 fillings.front(), model.surface, model.posed.wall));
     }
   } else {
     const std::vector<LinearConditions> conditions = model.goal->conditions();
     for (std::size_t i = 0; i < conditions.size() && isProved; ++i) {
       isProved = add(certificate(conditions[i], model.goal->wantedLevel(), bound->levels[i],
-                                 model.solidMoments, filling, model.surface, model.posed.wall));
+                                 model.solidMoments, fillings, model.surface, model.posed.wall));
     }
   }
   if (!isProved) found.certificates.clear();
@@ -273,7 +285,7 @@ Foundation coarsen(const Preparation& model, const Options& options, ProgressBar
     const AdmissibleCells cells = admissibleCells(model.surface, model.posed.wall);
     if (cells.rows() == 0) return;
     result.bound = optimalBound(*model.goal, options.weights, model.solidMoments,
-                                fillingSeenBy(options), cells);
+                                statesOf(model, options), cells);
     result.secondsBound = time.seconds();
   };
   const auto coarsenModel = [&] {

@@ -65,6 +65,25 @@ TriangleMesh hopelessPillar() {
   return transformed(roundedBox({1, 1, 2}, 0.15, 6, 2), shear(1.5));
 }
 
+/// The least tipping angle of the body, density 1, over levels of what its cavity, oriented as it
+/// is delivered, holds.
+double leastTippingAngle(const TriangleMesh& outer, const TriangleMesh& inner, double fill) {
+  const GroundContact ground = groundContact(outer.vertices, {});
+  const auto empty = quadratureMoments(outer) + quadratureMoments(inner);
+  const double low = inner.vertices.col(2).minCoeff();
+  const double high = inner.vertices.col(2).maxCoeff();
+  double least = 90.0;
+  constexpr int kLevels = 60;
+  for (int i = 0; i <= kLevels; ++i) {
+    const Eigen::Vector4d body =
+        empty.head<4>() -
+        fill * momentsOfColumns(inner, Vec3::UnitZ(), low + (high - low) * i / kLevels);
+    const Vec3 centre = body.tail<3>() / body[0];
+    least = std::min(least, tippingAngle(ground.area, Vec3(centre - ground.centre)));
+  }
+  return least;
+}
+
 Options stand() {
   return {};
 }
@@ -627,6 +646,56 @@ TEST(Pipeline, FillsTheMovedOuterSurfaceLessItsWalls) {
   const ContactArea area = groundContact(model.vertices, {}).area;
   const Vec3 about = groundContact(model.vertices, {}).centre;
   EXPECT_NEAR(number(moved, "tip_angle_filled_after"), tippingAngle(area, centre - about), 1e-3);
+}
+
+/// An arm to one side below one to the other side, on a foot in the middle.
+struct Armed {
+  std::string name;
+  std::vector<std::array<int, 3>> cells;
+  double lean, fill, wall; ///< the wall as a share of the diagonal
+};
+
+void PrintTo(const Armed& armed, std::ostream* os) {
+  *os << armed.name;
+}
+
+class StandsAtEveryLevel : public ::testing::TestWithParam<Armed> {};
+INSTANTIATE_TEST_SUITE_P(
+    Pipeline, StandsAtEveryLevel,
+    ::testing::Values(
+        Armed{"short_arms",
+              {{-1, 0, 1}, {0, 0, 0}, {0, 0, 1}, {0, 0, 2}, {1, 0, 2}},
+              -0.015,
+              0.63,
+              0.019},
+        Armed{"long_arms",
+              {{-2, 0, 2}, {-1, 0, 2}, {0, 0, 0}, {0, 0, 1}, {0, 0, 2}, {1, 0, 1}, {2, 0, 1}},
+              0.028,
+              0.59,
+              0.0236}),
+    [](const auto& test) { return test.param.name; });
+
+/// With cavities for which only the empty and the full body count, both stand at both ends and fall
+/// over by a degree when they are half full.
+TEST_P(StandsAtEveryLevel, ThoughTheBestForTheEndsFallsOver) {
+  const Armed& armed = GetParam();
+  const TriangleMesh model =
+      transformed(scaled(smoothed(polycube(armed.cells, 5), 2), 20.0), shear(armed.lean));
+  Options options;
+  options.goal = GoalKind::StandEmptyAndFilled;
+  options.density = 1.0;
+  options.fillDensity = armed.fill;
+  options.innerLowerBound = armed.wall * diagonal(model);
+  const Result result = optimizeMassProperties(model, options);
+  EXPECT_TRUE(truth(result, "solved")) << text(result, "message");
+  const double least = leastTippingAngle(model, result.inner, armed.fill);
+  const double solid = number(result, "tip_angle_empty_before");
+  const double limit = number(result, "tip_angle_filling_limit");
+  EXPECT_GT(least, solid + 0.8 * (limit - solid));
+  EXPECT_LT(least, limit);
+  // Between the heights at which it cuts the cavity the report bounds the angle from below.
+  EXPECT_LE(number(result, "tip_angle_filling_after"), least + 1e-6);
+  EXPECT_GE(number(result, "tip_angle_filling_after"), least - 0.2);
 }
 
 TEST(Pipeline, LeavesTheOuterSurfaceAloneByDefault) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 #include <vector>
 
@@ -45,7 +46,9 @@ std::string outlook(const CavityTask& task, const Verdict& verdict, bool isProve
   return std::string(isProved ? " No cavity of any shape that keeps this wall can reach it: "
                               : " No cavity of any shape that keeps this wall was found to reach "
                                 "it: ") +
-         verdict.bestInWords(best != nullptr ? best->body : task.bound->massMoments) + ".";
+         verdict.bestInWords(best != nullptr ? best->states
+                                             : std::vector<Moments>{task.bound->massMoments}) +
+         ".";
 }
 
 std::string message(const CavityTask& task, const Verdicts& verdicts, const CavityResult& cavity,
@@ -105,12 +108,43 @@ void addRepairs(const Repairs& repairs, Report& report) {
   report.add("replaced_cavities", repairs.replacedCavities);
 }
 
-/// Where the goal is out of reach: what the best body would do.
-void addBest(const CavityTask& task, const Verdicts& verdicts, Report& report) {
-  const LevelBound* best = task.bound->bestLevel();
-  if (best != nullptr && !task.bound->isReachable()) {
-    verdicts.before.describe(best->body, "best", report);
+/// What the limit's body would do and, where the goal is out of reach, the best body.
+void addLimit(const CavityTask& task, const Verdicts& verdicts, const Body& before,
+              const Body& after, Report& report) {
+  const OptimalBound& bound = *task.bound;
+  report.add("objective_limit", bound.objective);
+  if (bound.objectiveAtLeast) report.add("objective_limit_at_least", *bound.objectiveAtLeast);
+  report.add("gap_to_limit", gapToBound(bound, before, after));
+  verdicts.before.describe(bound.massMoments, "limit", report);
+  if (bound.measure) verdicts.before.describeWorst(*bound.measure, "limit", report);
+  const LevelBound* best = bound.bestLevel();
+  if (best == nullptr || bound.isReachable()) return;
+  verdicts.before.describe(best->states.front(), "best", report);
+  const std::optional<double> worst = measure(task.goal, best->states);
+  if (worst) verdicts.before.describeWorst(*worst, "best", report);
+}
+
+/// The states that count, and what is said of the moments in each of them.
+void addStates(const Certificate& proof, const std::string& number, Report& report) {
+  std::string functionals;
+  std::string conditions;
+  std::string fillings;
+  for (Eigen::Index s = 0; s < proof.functionals.cols(); ++s) {
+    const Filling& filling = proof.fillings[static_cast<std::size_t>(s)];
+    functionals += (s > 0 ? "; " : "") + inDigits(proof.functionals.col(s));
+    fillings += (s > 0 ? "; " : "") + inDigits(Eigen::Vector2d(filling.density, filling.level));
+    std::string sum;
+    for (Eigen::Index r = 0; r < proof.rows.rows(); ++r) {
+      if (proof.multipliers(r, s) <= 0.0) continue;
+      sum += (sum.empty() ? "" : "; ") + inDigits(Vector::Constant(1, proof.multipliers(r, s))) +
+             " x " + inDigits(proof.rows.row(r).transpose());
+    }
+    conditions += (s > 0 ? " | " : "") + sum;
   }
+  report.add("certificate_functional" + number, functionals);
+  if (proof.multipliers.size() == 0) return; // of a half-space, without conditions
+  report.add("certificate_conditions" + number, conditions);
+  report.add("certificate_fillings" + number, fillings);
 }
 
 /// All that a second program needs to check the proof, in the working frame.
@@ -122,17 +156,8 @@ void addCertificates(const Frame& frame, const Stages& stages, Report& report) {
   for (std::size_t i = 0; i < stages.certificates.size(); ++i) {
     const Certificate& proof = stages.certificates[i];
     const std::string number = stages.certificates.size() > 1 ? "_" + std::to_string(i + 1) : "";
-    report.add("certificate_functional" + number, inDigits(proof.functional));
+    addStates(proof, number, report);
     report.add("certificate_margin" + number, proof.margin);
-    if (proof.multipliers.size() == 0) continue;
-    std::string conditions;
-    for (Eigen::Index r = 0; r < proof.rows.rows(); ++r) {
-      if (proof.multipliers[r] <= 0.0) continue;
-      conditions += (conditions.empty() ? "" : "; ") +
-                    inDigits(Vector::Constant(1, proof.multipliers[r])) + " x " +
-                    inDigits(proof.rows.row(r).transpose());
-    }
-    report.add("certificate_conditions" + number, conditions);
   }
   report.add("seconds_certificate", stages.secondsCertificate);
 }
@@ -202,13 +227,7 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Ve
   verdicts.before.describe(before.mass, "before", report);
   verdicts.after.describe(after.mass, "after", report);
   if (task.bound) {
-    report.add("objective_limit", task.bound->objective);
-    if (task.bound->objectiveAtLeast) {
-      report.add("objective_limit_at_least", *task.bound->objectiveAtLeast);
-    }
-    report.add("gap_to_limit", gapToBound(*task.bound, before, after));
-    verdicts.before.describe(task.bound->massMoments, "limit", report);
-    addBest(task, verdicts, report);
+    addLimit(task, verdicts, before, after, report);
     addCertificates(posed.frame, stages, report);
   }
   report.add("print_as", std::string(kPrintAs) + (stages.margins ? kOtherwise : ""));

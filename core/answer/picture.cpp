@@ -40,7 +40,7 @@ std::optional<Picture> drawn(const PosedModel& posed, const CavityTask& task,
                              const Verdict& verdict, const CavityResult& cavity) {
   const Moments massAfter =
       shellMoments(outerMoments(task, cavity), moments(cavity.inner, cavity.cavity.faces), 1.0,
-                   task.model.fillDensity);
+                   task.model.fillings.front().density);
   const Vec3 before = massProperties(task.inputMoments).centerOfMass;
   const Vec3 after = massProperties(massAfter).centerOfMass;
 

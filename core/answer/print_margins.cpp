@@ -95,7 +95,7 @@ PrintMargins printMargins(const CavityTask& task, const CavityResult& cavity,
   if (faces.rows() == 0) return margins;
 
   const Moments inner = moments(cavity.inner, faces);
-  const double filled = 1.0 - task.model.fillDensity;
+  const double filled = 1.0 - task.model.fillings.front().density;
   const Points normals = vertexNormals(cavity.inner, faces);
   margins.wall = greatestDeviation(task.wall, [&](double error) {
     const auto holds = [&](double displacement) {

@@ -37,8 +37,17 @@ CavityResult resultOf(const CavityTask& task, const TriangleMesh& mesh) {
   return result;
 }
 
+/// One for all layers: their mean, which is near the best one where levels of contents count
+/// little.
+Moments quadricOf(const LayeredQuadric& worth) {
+  Moments sum = Moments::Zero();
+  for (const Moments& quadric : worth.quadrics) sum += quadric;
+  return sum / static_cast<double>(worth.quadrics.size());
+}
+
 /// The contour as the goal would have it; as it was where that spoils it.
-CavityResult polished(const CavityTask& task, double wall, const CavityContour& found) {
+CavityResult polished(const CavityTask& task, const Moments& quadric, double wall,
+                      const CavityContour& found) {
   constexpr double kFarthest = 0.3; // of a cube's edge
   CavityResult best = resultOf(task, found.contour.mesh);
   int evaluations = 0;
@@ -49,7 +58,7 @@ CavityResult polished(const CavityTask& task, double wall, const CavityContour& 
     best = std::move(other);
   };
   const auto adjust = [&](Moving moving, Contour& contour) {
-    evaluations += polish(task, task.bound->quadric, moving, kFarthest * found.edge, contour);
+    evaluations += polish(task, quadric, moving, kFarthest * found.edge, contour);
   };
   // Creases that move leave the walls' surface a little, and the constraints with it.
   Contour whole = found.contour;
@@ -76,12 +85,12 @@ bool leavesRoom(const TriangleTree& surface, double wall) {
 
 CavityResult bestPossibleCavity(const CavityTask& task) {
   const Stopwatch time;
+  const Moments quadric = quadricOf(task.bound->worth);
   double wall = task.wall;
   CavityResult result;
   constexpr int kRounds = 3;
   for (int round = 1; round <= kRounds; ++round) {
-    const std::optional<CavityContour> found =
-        cavityContour(task.surface, wall, task.bound->quadric, kCubes);
+    const std::optional<CavityContour> found = cavityContour(task.surface, wall, quadric, kCubes);
     if (!found || found->contour.mesh.faces.rows() == 0) {
       result = {};
       // Where there is room the limit's body is the solid one.
@@ -90,7 +99,7 @@ CavityResult bestPossibleCavity(const CavityTask& task) {
                                 : "the best possible cavity cannot be resolved";
       break;
     }
-    result = polished(task, wall, *found);
+    result = polished(task, quadric, wall, *found);
     result.effort.rounds = round;
     if (result.inspection.isClean()) break;
     // Rounding took too much.

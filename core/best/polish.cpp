@@ -5,8 +5,11 @@
 #include "core/contour/region.h"
 #include "core/contour/shape_guard.h"
 #include "core/goals/objective.h"
+#include "core/optimum/layered_quadric.h"
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace massprops {
 namespace {
@@ -41,10 +44,7 @@ RowMatrix functionsOf(const Points& vertices, const Points& directions, Eigen::I
   double count = 0.0;
   for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
     if (directions.row(v).isZero(0.0)) continue;
-    const Vec3 x = vertices.row(v).transpose();
-    Moments all;
-    all << 1.0, x, x.cwiseAbs2(), x.x() * x.y(), x.y() * x.z(), x.z() * x.x();
-    values.row(v) = all.head(terms).transpose();
+    values.row(v) = monomials(vertices.row(v).transpose()).head(terms).transpose();
     count += 1.0;
   }
   if (count == 0.0) return {};
@@ -73,15 +73,31 @@ int polish(const CavityTask& task, const Moments& quadric, Moving moving, double
   const auto displaced = [&](const Vector& q) {
     return Points(start + (functions * q).asDiagonal() * directions);
   };
-  const double filled = 1.0 - task.model.fillDensity;
   const double solid = task.model.solidMoments[0];
+  const auto withJacobian = [&](const MomentsWithRates& both) {
+    BodyState state{both.moments, MomentJacobian::Zero(10, functions.cols())};
+    state.jacobian.topRows(both.rates.cols()) = both.rates.transpose() * functions;
+    return state;
+  };
   const auto evaluateAt = [&](const Vector& q) {
-    const MomentsWithRates cavity = momentsWithRates(displaced(q), faces, directions, usesInertia);
-    MomentJacobian jacobian = MomentJacobian::Zero(10, functions.cols());
-    jacobian.topRows(cavity.rates.cols()) = cavity.rates.transpose() * functions;
-    return evaluateBody(task.goal, task.weights, task.model.solidMoments - filled * cavity.moments,
-                        -filled * jacobian, 1.0 - cavity.moments[0] / solid,
-                        -jacobian.row(0).transpose() / solid);
+    const Points vertices = displaced(q);
+    const BodyState cavity =
+        withJacobian(momentsWithRates(vertices, faces, directions, usesInertia));
+    std::vector<BodyState> states;
+    for (const Filling& filling : task.model.fillings) {
+      const double density = filling.isPartial() ? 0.0 : filling.density;
+      BodyState state{task.model.solidMoments - (1.0 - density) * cavity.mass,
+                      (density - 1.0) * cavity.jacobian};
+      if (filling.isPartial()) {
+        const BodyState contents =
+            withJacobian(momentsBelowWithRates(vertices, faces, directions, filling.level));
+        state.mass += filling.density * contents.mass;
+        state.jacobian += filling.density * contents.jacobian;
+      }
+      states.push_back(std::move(state));
+    }
+    return evaluateBody(task.goal, task.weights, states, 1.0 - cavity.mass[0] / solid,
+                        -cavity.jacobian.row(0).transpose() / solid);
   };
   MinimizeOptions options;
   options.feasibility = 0.1 * kFeasibility; // rounding needs the rest

@@ -1,10 +1,11 @@
 #include "core/goals/filling_levels.h"
 
 #include "core/mesh/components.h"
+#include "core/model/contact.h"
 #include "core/physics/hydrostatics.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 namespace massprops {
 
@@ -12,13 +13,18 @@ FillingLevels::FillingLevels(const Points& vertices, const Faces& faces) {
   constexpr int kCuts = 96;
   for (const Submesh& own : componentMeshes(vertices, faces)) {
     Part part;
-    part.vertices = own.mesh.vertices;
-    const double low = part.vertices.col(2).minCoeff();
-    const double high = part.vertices.col(2).maxCoeff();
+    const Points& corners = own.mesh.vertices;
+    std::vector<Vec2> seen;
+    for (Eigen::Index v = 0; v < corners.rows(); ++v) {
+      seen.emplace_back(corners(v, 0), corners(v, 1));
+    }
+    part.outline = convexHull(seen);
+    const double low = corners.col(2).minCoeff();
+    const double high = corners.col(2).maxCoeff();
     part.cuts.push_back({low, 0.0, Vec3::Zero()});
     for (int i = 1; i <= kCuts; ++i) {
       const double height = low + (high - low) * i / kCuts;
-      const Displacement below = displacement(part.vertices, own.mesh.faces, Vec3::UnitZ(), height);
+      const Displacement below = displacement(corners, own.mesh.faces, Vec3::UnitZ(), height);
       part.cuts.push_back({height, below.volume, below.volume * below.centre});
     }
     parts_.push_back(std::move(part));
@@ -27,7 +33,8 @@ FillingLevels::FillingLevels(const Points& vertices, const Faces& faces) {
 
 double FillingLevels::worst(const Part& part, const TippingDirection& direction,
                             double tangent) const {
-  const double farthest = (part.vertices.leftCols<2>() * direction.unit).maxCoeff();
+  double farthest = -std::numeric_limits<double>::infinity();
+  for (const Vec2& p : part.outline) farthest = std::max(farthest, direction.unit.dot(p));
   double most = 0.0;
   for (std::size_t i = 1; i < part.cuts.size(); ++i) {
     const Cut& below = part.cuts[i - 1];
@@ -44,24 +51,36 @@ double FillingLevels::worst(const Part& part, const TippingDirection& direction,
   return most;
 }
 
+bool FillingLevels::stands(const TippingDirection& direction, const Moments& empty, double density,
+                           double tangent) const {
+  double sum =
+      direction.unit.dot(empty.segment<2>(1)) + tangent * empty[3] - direction.extent * empty[0];
+  for (const Part& part : parts_) sum += density * worst(part, direction, tangent);
+  return sum <= 0.0;
+}
+
+bool FillingLevels::stands(const std::vector<TippingDirection>& directions, const Moments& empty,
+                           double density, double tangent) const {
+  return std::all_of(directions.begin(), directions.end(), [&](const TippingDirection& direction) {
+    return stands(direction, empty, density, tangent);
+  });
+}
+
 double FillingLevels::leastTangent(const std::vector<TippingDirection>& directions,
                                    const Moments& empty, double density) const {
   double least = levelReached(standingConditions(directions), empty);
   for (const TippingDirection& direction : directions) {
-    const auto stands = [&](double tangent) {
-      double sum = direction.unit.dot(empty.segment<2>(1)) + tangent * empty[3] -
-                   direction.extent * empty[0];
-      for (const Part& part : parts_) sum += density * worst(part, direction, tangent);
-      return sum <= 0.0;
+    const auto standsAt = [&](double tangent) {
+      return stands(direction, empty, density, tangent);
     };
-    if (stands(least)) continue;
+    if (standsAt(least)) continue;
     // The sum grows with the tangent.
     double low = least - 1.0;
-    while (!stands(low)) low -= 2.0 * (least - low);
+    while (!standsAt(low)) low -= 2.0 * (least - low);
     constexpr int kBisections = 40;
     for (int i = 0; i < kBisections; ++i) {
       const double middle = 0.5 * (low + least);
-      (stands(middle) ? low : least) = middle;
+      (standsAt(middle) ? low : least) = middle;
     }
     least = low;
   }

@@ -24,15 +24,22 @@ public:
   double leastTangent(const std::vector<TippingDirection>& directions, const Moments& empty,
                       double density) const;
 
+  /// Whether the body stands with its cavities filled in any way when it is tilted by this tangent:
+  /// what `leastTangent` is the greatest of.
+  bool stands(const std::vector<TippingDirection>& directions, const Moments& empty, double density,
+              double tangent) const;
+
 private:
+  bool stands(const TippingDirection& direction, const Moments& empty, double density,
+              double tangent) const;
   /// What lies below a height.
   struct Cut {
     double height, volume;
     Vec3 first; ///< ∫x dV
   };
   struct Part {
-    std::vector<Cut> cuts; ///< from empty to full
-    Points vertices;
+    std::vector<Cut> cuts;     ///< from empty to full
+    std::vector<Vec2> outline; ///< seen from above, its convex hull
   };
 
   /// The most that contents of density 1 raise u·S + tangent S_z − extent m by.

@@ -50,9 +50,10 @@ struct SpinningTask;
 
 /// A goal sees a body through its ten mass moments M in the working frame, the material's density
 /// being 1: M = outer − (1 − f) inner with f the filling's density, so that any function of M is
-/// one of the cavity's moments with dM/d(inner) = f − 1. f is the `fillDensity` of the task, see
-/// `fillingSeenBy`. Everything is dimensionless; objective and constraints are smooth, but for the
-/// kinks of a contact polygon with very many corners (stand.h).
+/// one of the cavity's moments with dM/d(inner) = f − 1. Where there is more than one filling
+/// (`fillingsSeenBy`) the body is to serve the goal in each of these states. Everything is
+/// dimensionless; objective and constraints are smooth, but for the kinks of a contact polygon with
+/// very many corners (stand.h).
 class Goal {
 public:
   virtual ~Goal() = default;

@@ -5,20 +5,36 @@
 #include "core/base/options.h"
 #include "core/goals/goal.h"
 
+#include <optional>
+#include <vector>
+
 namespace massprops {
 
 /// d(moments)/d(variables), 10×x.
 using MomentJacobian = Eigen::Matrix<double, 10, Eigen::Dynamic>;
 
+/// Mass moments with their derivatives.
+struct BodyState {
+  Moments mass;
+  MomentJacobian jacobian;
+};
+
 /// Terms 1, 2, 3 and 5 of the objective (docs/math.md, "Objective") of a body with these mass
-/// moments. `volumeShare`: volume of the material over that of the solid.
-double momentObjective(const Goal& goal, const Weights& weights, const Moments& massMoments,
+/// moments, one for each of its states (filling.h): the soft maximum of the goal's objective, and
+/// the constraints of all. `volumeShare`: volume of the material over that of the solid.
+double momentObjective(const Goal& goal, const Weights& weights, const std::vector<Moments>& states,
                        double volumeShare);
 
 /// The same with its derivatives by x variables, and the goal's constraints unless weight 5 is 0,
 /// which leaves them out altogether. `volumeShareGradient`: x entries.
-Evaluation evaluateBody(const Goal& goal, const Weights& weights, const Moments& massMoments,
-                        const MomentJacobian& massJacobian, double volumeShare,
+Evaluation evaluateBody(const Goal& goal, const Weights& weights,
+                        const std::vector<BodyState>& states, double volumeShare,
                         const Vector& volumeShareGradient);
+
+/// Largest in any state.
+double largestViolation(const Goal& goal, const std::vector<Moments>& states);
+
+/// Of the worst state.
+std::optional<double> measure(const Goal& goal, const std::vector<Moments>& states);
 
 } // namespace massprops

@@ -90,10 +90,7 @@ std::vector<GoalEntry> allGoals() {
        [](const In& in) { return makeYoYoVerdict(solid(in), middleOfAxle(in), unit(in)); }},
       {GoalKind::StandEmptyAndFilled, "Stand empty and filled",
        "it stands with its cavity empty and with it filled", 0,
-       [](const In& in) {
-         return makeStandEmptyAndFilledGoal(in.posed.contact, moments(in.outer, in.posed.faces),
-                                            filling(in.options), in.options.weights);
-       },
+       [](const In& in) { return makeStandGoal(in.posed.contact, in.options.weights); },
        [](const In& in) {
          return makeStandEmptyAndFilledVerdict(in.posed.contact, moments(in.outer, in.posed.faces),
                                                filling(in.options), unit(in), in.cavity);
@@ -170,8 +167,9 @@ std::unique_ptr<Verdict> makeVerdict(const Options& options, const PosedModel& p
   return goalEntry(options.goal).verdict({options, posed, outer, cavity});
 }
 
-double fillingSeenBy(const Options& options) {
-  return options.goal == GoalKind::StandEmptyAndFilled ? 0.0 : filling(options);
+Fillings fillingsSeenBy(const Options& options) {
+  if (options.goal == GoalKind::StandEmptyAndFilled) return {{}, {filling(options)}};
+  return {{filling(options)}};
 }
 
 } // namespace massprops

@@ -5,6 +5,7 @@
 #include "core/goals/goal.h"
 #include "core/goals/verdict.h"
 #include "core/model/posed_model.h"
+#include "core/physics/filling.h"
 
 #include <memory>
 #include <string>
@@ -49,8 +50,7 @@ std::unique_ptr<Goal> makeGoal(const Options& options, const PosedModel& posed,
 std::unique_ptr<Verdict> makeVerdict(const Options& options, const PosedModel& posed,
                                      const Points& outer, const TriangleMesh* cavity = nullptr);
 
-/// Density of what the goal takes for the cavity's filling, as a multiple of the material's: 0 for
-/// Stand empty and filled, which adds the filling by itself.
-double fillingSeenBy(const Options& options);
+/// The states in which the body is to serve the goal, levels of contents left out.
+Fillings fillingsSeenBy(const Options& options);
 
 } // namespace massprops

@@ -3,16 +3,13 @@
 #include "core/base/angles.h"
 #include "core/goals/tipping.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
 namespace massprops {
 namespace {
-
-double tippingAngleOf(const ContactArea& area, const Moments& massMoments) {
-  return tippingAngle(area, massProperties(massMoments).centerOfMass);
-}
 
 /// As hard to tip over as possible.
 class StandGoal final : public Goal {
@@ -135,9 +132,10 @@ public:
     report.add("stands_" + suffix, angle > 0.0);
   }
 
-  std::string bestInWords(const Moments& massMoments) const override {
-    return "the best possible tipping angle is " + toString(tippingAngleOf(area_, massMoments)) +
-           "\u00b0";
+  std::string bestInWords(const std::vector<Moments>& states) const override {
+    double least = tippingAngleOf(area_, states.front());
+    for (const Moments& state : states) least = std::min(least, tippingAngleOf(area_, state));
+    return "the best possible tipping angle is " + toString(least) + "\u00b0";
   }
 
   /// The contact area, and the centres of mass plumb above or beside it.

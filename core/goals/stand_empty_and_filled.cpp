@@ -15,90 +15,36 @@
 namespace massprops {
 namespace {
 
-/// (1 − f) M + f outer for inner = outer − M, M the moments of the empty body.
-class Filling {
+/// The moments of the filled body from those of the empty one.
+class Filled {
 public:
-  Filling(Moments outer, double density) : outer_(std::move(outer)), density_(density) {}
-  Moments filled(const Moments& empty) const {
+  Filled(Moments outer, double density) : outer_(std::move(outer)), density_(density) {}
+  Moments operator()(const Moments& empty) const {
     return (1.0 - density_) * empty + density_ * outer_;
   }
   double density() const { return density_; }
-  /// d(filled)/d(empty)
-  double slope() const { return 1.0 - density_; }
-  /// Functionals of the filled body as such of the empty one.
-  AffineRows seenFromEmpty(const AffineRows& ofFilled) const {
-    AffineRows rows = ofFilled;
-    rows.leftCols<10>() *= slope();
-    rows.col(10) += density_ * ofFilled.leftCols<10>() * outer_;
-    return rows;
-  }
 
 private:
   Moments outer_;
   double density_;
 };
 
-/// The smaller of the tipping angles of two bodies at once.
-class StandEmptyAndFilledGoal final : public Goal {
-public:
-  StandEmptyAndFilledGoal(ContactArea area, Filling filling, const Weights& weights)
-      : area_(std::move(area)), directions_(tippingDirections(area_)), filling_(std::move(filling)),
-        weight_(weights.centerOfMass) {}
-
-  GoalValue objective(const Moments& massMoments) const override {
-    const GoalValue empty = negativeSmoothTipping(directions_, massMoments);
-    GoalValue full = negativeSmoothTipping(directions_, filling_.filled(massMoments));
-    full.gradient *= filling_.slope();
-    GoalValue f = smoothMaximum(empty, full);
-    f.value *= weight_;
-    f.gradient *= weight_;
-    return f;
-  }
-
-  GoalConstraints equalities(const Moments& /*massMoments*/) const override { return {}; }
-  GoalConstraints inequalities(const Moments& /*massMoments*/) const override { return {}; }
-  bool usesInertia() const override { return false; }
-
-  std::vector<LinearConditions> conditions() const override {
-    const LinearConditions empty = standingConditions(directions_);
-    const LinearConditions full{filling_.seenFromEmpty(empty.atZero),
-                                filling_.seenFromEmpty(empty.slopes)};
-    LinearConditions both{AffineRows(2 * empty.atZero.rows(), 11),
-                          AffineRows(2 * empty.atZero.rows(), 11)};
-    both.atZero << empty.atZero, full.atZero;
-    both.slopes << empty.slopes, full.slopes;
-    return {both};
-  }
-
-  std::optional<double> measure(const Moments& massMoments) const override {
-    const auto angle = [&](const Moments& body) {
-      return tippingAngle(area_, massProperties(body).centerOfMass);
-    };
-    return std::min(angle(massMoments), angle(filling_.filled(massMoments)));
-  }
-
-private:
-  ContactArea area_;
-  std::vector<TippingDirection> directions_;
-  Filling filling_;
-  double weight_;
-};
-
 class StandEmptyAndFilledVerdict final : public Verdict {
 public:
-  StandEmptyAndFilledVerdict(ContactArea area, double lengthUnit, Filling filling,
+  StandEmptyAndFilledVerdict(ContactArea area, double lengthUnit, Filled filled,
                              std::optional<FillingLevels> levels)
-      : area_(std::move(area)), stand_(makeStandVerdict(area_, lengthUnit)),
-        filling_(std::move(filling)), levels_(std::move(levels)) {}
+      : area_(std::move(area)), directions_(tippingDirections(area_)),
+        stand_(makeStandVerdict(area_, lengthUnit)), filled_(std::move(filled)),
+        levels_(std::move(levels)) {}
 
   bool isReached(const Moments& massMoments) const override {
-    return stand_->isReached(massMoments) && stand_->isReached(filling_.filled(massMoments)) &&
-           (!levels_ || leastAngle(massMoments) > 0.0);
+    return stand_->isReached(massMoments) && stand_->isReached(filled_(massMoments)) &&
+           (!levels_ || levels_->stands(directions_, massMoments, filled_.density(), kTilted));
   }
 
   std::string whatIsMissed(const Moments& massMoments) const override {
     const bool standsAtEnds =
-        stand_->isReached(massMoments) && stand_->isReached(filling_.filled(massMoments));
+        stand_->isReached(massMoments) && stand_->isReached(filled_(massMoments));
     return standsAtEnds && levels_
                ? "it may fall over while it is filled, its tipping angle being " +
                      toString(leastAngle(massMoments)) + "\u00b0 at the worst level"
@@ -106,11 +52,8 @@ public:
   }
 
   std::string worstViolation(const Moments& massMoments) const override {
-    const Moments full = filling_.filled(massMoments);
-    const auto angle = [&](const Moments& body) {
-      return tippingAngle(area_, massProperties(body).centerOfMass);
-    };
-    const bool emptyIsWorse = angle(massMoments) <= angle(full);
+    const Moments full = filled_(massMoments);
+    const bool emptyIsWorse = tippingAngleOf(area_, massMoments) <= tippingAngleOf(area_, full);
     return (emptyIsWorse ? "empty, " : "filled, ") +
            stand_->worstViolation(emptyIsWorse ? massMoments : full);
   }
@@ -118,13 +61,21 @@ public:
   void describe(const Moments& massMoments, const std::string& suffix,
                 Report& report) const override {
     stand_->describe(massMoments, "empty_" + suffix, report);
-    stand_->describe(filling_.filled(massMoments), "filled_" + suffix, report);
+    stand_->describe(filled_(massMoments), "filled_" + suffix, report);
     if (!levels_) return;
-    report.add("tip_angle_filling_" + suffix, leastAngle(massMoments));
-    report.add("stands_filling_" + suffix, leastAngle(massMoments) > 0.0);
+    describeWorst(leastAngle(massMoments), suffix, report);
     report.add("filled_as", levels_->cavities() == 1
                                 ? std::string("one cavity")
                                 : toString(levels_->cavities()) + " cavities, each by itself");
+  }
+
+  void describeWorst(double angle, const std::string& suffix, Report& report) const override {
+    report.add("tip_angle_filling_" + suffix, angle);
+    report.add("stands_filling_" + suffix, angle > 0.0);
+  }
+
+  std::string bestInWords(const std::vector<Moments>& states) const override {
+    return stand_->bestInWords(states) + " at the worst level of its contents";
   }
 
   std::string draw(const Moments& before, const Moments& after,
@@ -133,24 +84,22 @@ public:
   }
 
 private:
+  /// The tangent of a tilt that is next to none, and more than rounding.
+  static constexpr double kTilted = 1e-12;
+
   /// Over all levels of the contents.
   double leastAngle(const Moments& empty) const {
-    return std::atan(levels_->leastTangent(tippingDirections(area_), empty, filling_.density())) *
-           kDegrees;
+    return std::atan(levels_->leastTangent(directions_, empty, filled_.density())) * kDegrees;
   }
 
   ContactArea area_;
+  std::vector<TippingDirection> directions_;
   std::unique_ptr<Verdict> stand_;
-  Filling filling_;
+  Filled filled_;
   std::optional<FillingLevels> levels_; ///< of a body that has cavities
 };
 
 } // namespace
-
-std::unique_ptr<Goal> makeStandEmptyAndFilledGoal(const ContactArea& area, const Moments& outer,
-                                                  double filling, const Weights& weights) {
-  return std::make_unique<StandEmptyAndFilledGoal>(area, Filling(outer, filling), weights);
-}
 
 std::unique_ptr<Verdict> makeStandEmptyAndFilledVerdict(const ContactArea& area,
                                                         const Moments& outer, double filling,
@@ -158,7 +107,7 @@ std::unique_ptr<Verdict> makeStandEmptyAndFilledVerdict(const ContactArea& area,
                                                         const TriangleMesh* cavity) {
   std::optional<FillingLevels> levels;
   if (cavity != nullptr) levels.emplace(cavity->vertices, cavity->faces);
-  return std::make_unique<StandEmptyAndFilledVerdict>(area, lengthUnit, Filling(outer, filling),
+  return std::make_unique<StandEmptyAndFilledVerdict>(area, lengthUnit, Filled(outer, filling),
                                                       std::move(levels));
 }
 

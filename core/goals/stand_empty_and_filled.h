@@ -1,8 +1,7 @@
-// Stand empty and filled: the body stands with its cavity empty and with it filled.
+// Stand empty and filled: the body stands with its cavity empty, filled, and while it is filled.
+// The goal is Stand's, in each of these states.
 #pragma once
 
-#include "core/base/options.h"
-#include "core/goals/goal.h"
 #include "core/goals/verdict.h"
 #include "core/model/contact.h"
 
@@ -10,14 +9,9 @@
 
 namespace massprops {
 
-/// Maximises the smaller tipping angle of both bodies. A function of the moments of the *empty*
-/// body; the filled one has (1 − f) empty + f outer, with f the filling's density as a multiple of
-/// the material's.
-std::unique_ptr<Goal> makeStandEmptyAndFilledGoal(const ContactArea& area, const Moments& outer,
-                                                  double filling, const Weights& weights);
-
-/// Stand's, of both bodies and, where the `cavity` (closed, outward, working frame) is given, at
-/// every level of its contents.
+/// Stand's, of the empty and the filled body and, where the `cavity` (closed, outward, working
+/// frame) is given, at every level of its contents. Of the *empty* body; the filled one has
+/// (1 − f) empty + f outer, with f the `filling`'s density as a multiple of the material's.
 std::unique_ptr<Verdict> makeStandEmptyAndFilledVerdict(const ContactArea& area,
                                                         const Moments& outer, double filling,
                                                         double lengthUnit,

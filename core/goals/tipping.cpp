@@ -1,6 +1,7 @@
 #include "core/goals/tipping.h"
 
 #include "core/base/angles.h"
+#include "core/base/soft_maximum.h"
 
 #include <cmath>
 #include <cstddef>
@@ -12,9 +13,6 @@ namespace {
 /// turn through this number: the solver's time grows with them.
 constexpr std::size_t kMostSides = 64;
 constexpr int kAround = 72;
-/// Of the soft minimum. Sharper ones were seen to stop the solver at kinks, softer ones to raise
-/// directions that the body does not tip over in.
-constexpr double kSharpness = 70.0;
 
 std::vector<Vec2> edgeNormals(const std::vector<Vec2>& polygon) {
   std::vector<Vec2> normals;
@@ -27,6 +25,10 @@ std::vector<Vec2> edgeNormals(const std::vector<Vec2>& polygon) {
 }
 
 } // namespace
+
+double tippingAngleOf(const ContactArea& area, const Moments& massMoments) {
+  return tippingAngle(area, massProperties(massMoments).centerOfMass);
+}
 
 std::vector<TippingDirection> tippingDirections(const ContactArea& area) {
   std::vector<TippingDirection> directions;
@@ -57,29 +59,17 @@ GoalValue negativeSmoothTipping(const std::vector<TippingDirection>& directions,
     beyond[i] =
         (d.unit.dot(massMoments.segment<2>(1)) - d.extent * massMoments[0]) / massMoments[3];
   }
-  const double worst = beyond.maxCoeff();
-  Vector share = (kSharpness * (beyond.array() - worst)).exp();
-  const double sum = share.sum();
-  share /= sum;
+  const SoftMaximum worst = softMaximum(beyond, kTippingSharpness);
   GoalValue f;
-  f.value = worst + std::log(sum) / kSharpness;
+  f.value = worst.value;
   for (Eigen::Index i = 0; i < count; ++i) {
     const TippingDirection& d = directions[static_cast<std::size_t>(i)];
-    const double factor = share[i] / massMoments[3];
+    const double factor = worst.shares[i] / massMoments[3];
     f.gradient[0] -= factor * d.extent;
     f.gradient.segment<2>(1) += factor * d.unit.transpose();
     f.gradient[3] -= factor * beyond[i];
   }
   return f;
-}
-
-GoalValue smoothMaximum(const GoalValue& a, const GoalValue& b) {
-  const double more = kSharpness * std::abs(a.value - b.value);
-  const double shareOfLess = 1.0 / (1.0 + std::exp(more));
-  const GoalValue& great = a.value > b.value ? a : b;
-  const GoalValue& less = a.value > b.value ? b : a;
-  return {great.value + std::log1p(std::exp(-more)) / kSharpness,
-          (1.0 - shareOfLess) * great.gradient + shareOfLess * less.gradient};
 }
 
 LinearConditions standingConditions(const std::vector<TippingDirection>& directions) {

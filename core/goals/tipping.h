@@ -14,17 +14,21 @@ struct TippingDirection {
   double extent; ///< of the contact area
 };
 
+/// Of the body with these mass moments, degrees: contact.h.
+double tippingAngleOf(const ContactArea& area, const Moments& massMoments);
+
 /// Outward normals of the area's edges, or of groups of neighbouring ones where there are more than
 /// 64, and 72 directions all round for corners and ellipses.
 std::vector<TippingDirection> tippingDirections(const ContactArea& area);
+
+/// Of soft maxima over tangents of tipping angles. Sharper ones were seen to stop the solver at
+/// kinks, softer ones to raise directions that the body does not tip over in.
+constexpr double kTippingSharpness = 70.0;
 
 /// −1/s log Σ exp(−s (extent − u·c)/c_z) over the directions u: at most the tangent of the tipping
 /// angle, and less by log(directions)/s at most; here negative, to be minimised. Smooth.
 GoalValue negativeSmoothTipping(const std::vector<TippingDirection>& directions,
                                 const Moments& massMoments);
-
-/// The smooth maximum of both, of the same kind: of a body that may tip over in either state.
-GoalValue smoothMaximum(const GoalValue& a, const GoalValue& b);
 
 /// The level is the tangent of the tipping angle: u·S + t S_z − extent m ≤ 0 for all directions u,
 /// S = m c. [PWLSH13, Sec. 4]

@@ -10,8 +10,11 @@ std::string Verdict::remark(const Moments& /*massMoments*/) const {
   return "";
 }
 
-std::string Verdict::bestInWords(const Moments& massMoments) const {
-  return "at best " + worstViolation(massMoments);
+void Verdict::describeWorst(double /*measure*/, const std::string& /*suffix*/,
+                            Report& /*report*/) const {}
+
+std::string Verdict::bestInWords(const std::vector<Moments>& states) const {
+  return "at best " + worstViolation(states.front());
 }
 
 std::string Verdict::draw(const Moments& /*before*/, const Moments& /*after*/,

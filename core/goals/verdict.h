@@ -7,6 +7,7 @@
 #include "core/physics/mass_properties.h"
 
 #include <string>
+#include <vector>
 
 namespace massprops {
 
@@ -30,8 +31,12 @@ public:
   /// Adds the goal's own keys with `suffix` ("before", "after") to the report.
   virtual void describe(const Moments& massMoments, const std::string& suffix,
                         Report& report) const = 0;
-  /// What the best of all bodies reaches, in words, when no body holds all constraints.
-  virtual std::string bestInWords(const Moments& massMoments) const;
+  /// Adds the goal's measure (goal.h) of a body in the worst of its states, where there are
+  /// several.
+  virtual void describeWorst(double measure, const std::string& suffix, Report& report) const;
+  /// What the best of all bodies reaches, in words, when no body holds all constraints. `states`:
+  /// its mass moments in each.
+  virtual std::string bestInWords(const std::vector<Moments>& states) const;
   /// Draws, in the working frame, what the verdict goes by on the solid body `before` and on the
   /// answer `after`, and names it in plain words; nothing but "" where the numbers say it all.
   virtual std::string draw(const Moments& before, const Moments& after,

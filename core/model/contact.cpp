@@ -19,18 +19,6 @@ double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-std::vector<Vec2> convexHull(const std::vector<Vec2>& points) {
-  std::vector<Kernel::Point_2> input;
-  input.reserve(points.size());
-  for (const Vec2& p : points) input.emplace_back(p.x(), p.y());
-  std::vector<Kernel::Point_2> hull;
-  CGAL::convex_hull_2(input.begin(), input.end(), std::back_inserter(hull));
-  std::vector<Vec2> result;
-  result.reserve(hull.size());
-  for (const Kernel::Point_2& p : hull) result.emplace_back(p.x(), p.y());
-  return result;
-}
-
 /// About one of its corners: far from the origin the terms would cancel.
 double signedArea(const std::vector<Vec2>& polygon) {
   const Vec2& base = polygon.front();
@@ -106,6 +94,18 @@ Vec2 weakestDirectionOfEllipse(const ContactArea& ellipse, const Vec2& c) {
 }
 
 } // namespace
+
+std::vector<Vec2> convexHull(const std::vector<Vec2>& points) {
+  std::vector<Kernel::Point_2> input;
+  input.reserve(points.size());
+  for (const Vec2& p : points) input.emplace_back(p.x(), p.y());
+  std::vector<Kernel::Point_2> hull;
+  CGAL::convex_hull_2(input.begin(), input.end(), std::back_inserter(hull));
+  std::vector<Vec2> result;
+  result.reserve(hull.size());
+  for (const Kernel::Point_2& p : hull) result.emplace_back(p.x(), p.y());
+  return result;
+}
 
 GroundContact groundContact(const Points& upright, const std::optional<Vec2>& radii) {
   const double ground = upright.col(2).minCoeff();

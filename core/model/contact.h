@@ -23,6 +23,9 @@ struct GroundContact {
   ContactArea area;
 };
 
+/// Corners of the convex hull, counterclockwise, without those on its sides.
+std::vector<Vec2> convexHull(const std::vector<Vec2>& points);
+
 /// All vertices within 1e-4 of the diagonal above the lowest one touch the ground.
 /// `upright`: n×3, up is +z, any unit. `radii`: half axes instead of the polygon, same unit. The
 /// polygon is empty when the contact points span no area.

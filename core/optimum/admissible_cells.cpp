@@ -152,6 +152,12 @@ private:
   int borderCells_ = 0;
 };
 
+double cellEdge(const Vec3& extent, int cells) {
+  // Sheets of almost no thickness would need cells without number.
+  constexpr double kMostAlongASide = 400.0;
+  return std::max(std::cbrt(extent.prod() / cells), extent.maxCoeff() / kMostAlongASide);
+}
+
 } // namespace
 
 AdmissibleCells admissibleCells(const TriangleTree& surface, double wall, int cells) {
@@ -159,10 +165,7 @@ AdmissibleCells admissibleCells(const TriangleTree& surface, double wall, int ce
   const Vec3 high = surface.vertices().colwise().maxCoeff();
   const Vec3 extent = high - low;
   if (2.0 * wall >= extent.minCoeff()) return {};
-  // Sheets of almost no thickness would need cells without number.
-  constexpr double kMostAlongASide = 400.0;
-  const double edge =
-      std::max(std::cbrt(extent.prod() / cells), extent.maxCoeff() / kMostAlongASide);
+  const double edge = cellEdge(extent, cells);
   const double step = RegionSampler::topEdge(edge);
   const Eigen::Array<Eigen::Index, 3, 1> counts =
       ((high - low) / step).array().ceil().max(1.0).cast<Eigen::Index>();
@@ -184,6 +187,15 @@ AdmissibleCells admissibleCells(const TriangleTree& surface, double wall, int ce
     row += part.rows();
   }
   return all;
+}
+
+std::vector<double> layerHeights(const TriangleTree& surface, int cells) {
+  const Vec3 low = surface.vertices().colwise().minCoeff();
+  const Vec3 high = surface.vertices().colwise().maxCoeff();
+  const double edge = cellEdge(high - low, cells);
+  std::vector<double> heights;
+  for (int i = 1; low.z() + i * edge < high.z(); ++i) heights.push_back(low.z() + i * edge);
+  return heights;
 }
 
 } // namespace massprops

@@ -3,6 +3,8 @@
 
 #include "core/query/triangle_tree.h"
 
+#include <vector>
+
 namespace massprops {
 
 /// What may be hollow: the points of the body that are at least a wall away from its surface, in
@@ -15,5 +17,8 @@ using AdmissibleCells = Eigen::Matrix<double, Eigen::Dynamic, 10, Eigen::RowMajo
 /// large at its edges, if anything, never too small.
 /// \pre the surface is closed and outward
 AdmissibleCells admissibleCells(const TriangleTree& surface, double wall, int cells = 20000);
+
+/// The heights between the layers of these cells, ascending: none of them cuts a cell.
+std::vector<double> layerHeights(const TriangleTree& surface, int cells = 20000);
 
 } // namespace massprops

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace massprops {
@@ -27,48 +28,66 @@ struct Cube {
   double slack = 0.0; ///< by how much that may be too large; 0: nothing to be gained by dividing
 };
 
-double valueAt(const Moments& quadric, const Vec3& x) {
-  Moments monomials;
-  monomials << 1.0, x, x.cwiseAbs2(), x.x() * x.y(), x.y() * x.z(), x.z() * x.x();
-  return quadric.dot(monomials);
-}
-
-/// A quadric over a cube. What is linear in each coordinate lies below its values at the corners,
+/// A quadric over a box. What is linear in each coordinate lies below its values at the corners,
 /// interpolated; −x² lies above them by a quarter of the squared edge at most.
 struct Bounds {
-  double meanOfPositive; ///< at least the mean of max(0, q)
-  double greatest;       ///< at least max(0, q)
-  double slack;          ///< of the mean
+  double meanOfPositive = 0.0; ///< at least the mean of max(0, q)
+  double greatest = 0.0;       ///< at least max(0, q)
+  double slack = 0.0;          ///< of the mean
 };
 
-Bounds boundsOver(const Moments& quadric, const Cube& cube) {
-  const double over = 0.25 * cube.edge * cube.edge * (-quadric.segment<3>(4)).cwiseMax(0.0).sum();
-  const double under = 0.25 * cube.edge * cube.edge * quadric.segment<3>(4).cwiseMax(0.0).sum();
+Bounds boundsOver(const Moments& quadric, const Vec3& centre, const Vec3& size) {
+  const Vec3 curvature = quadric.segment<3>(4).cwiseProduct(size.cwiseAbs2());
+  const double over = 0.25 * (-curvature).cwiseMax(0.0).sum();
+  const double under = 0.25 * curvature.cwiseMax(0.0).sum();
   double sum = 0.0;
   double least = std::numeric_limits<double>::infinity();
   double greatest = -least;
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 step((corner & 1) != 0 ? 0.5 : -0.5, (corner & 2) != 0 ? 0.5 : -0.5,
                     (corner & 4) != 0 ? 0.5 : -0.5);
-    const double value = valueAt(quadric, cube.centre + cube.edge * step);
+    const double value = quadric.dot(monomials(centre + size.cwiseProduct(step)));
     sum += std::max(0.0, value + over);
     least = std::min(least, value);
     greatest = std::max(greatest, value);
   }
-  if (greatest + over <= 0.0) return {0.0, 0.0, 0.0};
+  if (greatest + over <= 0.0) return {};
   if (least - under >= 0.0) {
     // Positive throughout: the mean is that of the quadric itself.
-    const double spread = cube.edge * cube.edge / 12.0;
-    const double mean = valueAt(quadric, cube.centre) + spread * quadric.segment<3>(4).sum();
+    const double mean = quadric.dot(monomials(centre)) + curvature.sum() / 12.0;
     return {mean, greatest + over, 0.0};
   }
   const double mean = sum / 8.0;
   return {mean, greatest + over, std::min(mean, 0.25 * (greatest - least) + over + under)};
 }
 
+/// Those of the parts of the cube in its layers.
+Bounds boundsOver(const LayeredQuadric& q, const Cube& cube) {
+  const double bottom = cube.centre.z() - 0.5 * cube.edge;
+  const double top = cube.centre.z() + 0.5 * cube.edge;
+  const std::size_t first = q.layerAt(bottom);
+  const std::size_t last = q.layerAt(top);
+  if (first == last) {
+    return boundsOver(q.quadrics[first], cube.centre, Vec3::Constant(cube.edge));
+  }
+  Bounds all;
+  for (std::size_t layer = first; layer <= last; ++layer) {
+    const double low = layer > first ? q.heights[layer - 1] : bottom;
+    const double high = layer < last ? q.heights[layer] : top;
+    const Bounds part =
+        boundsOver(q.quadrics[layer], {cube.centre.x(), cube.centre.y(), 0.5 * (low + high)},
+                   {cube.edge, cube.edge, high - low});
+    const double share = (high - low) / cube.edge;
+    all.meanOfPositive += share * part.meanOfPositive;
+    all.slack += share * part.slack;
+    all.greatest = std::max(all.greatest, part.greatest);
+  }
+  return all;
+}
+
 class UpperBound {
 public:
-  UpperBound(const Moments& quadric, const TriangleTree& surface, double wall)
+  UpperBound(const LayeredQuadric& quadric, const TriangleTree& surface, double wall)
       : quadric_(quadric), surface_(surface), inside_(surface), wall_(wall) {}
 
   /// Rounds of division, each of the cubes with the most to gain.
@@ -176,7 +195,7 @@ private:
     cube.upper = upper;
   }
 
-  const Moments& quadric_;
+  const LayeredQuadric& quadric_;
   const TriangleTree& surface_;
   PointInMesh inside_;
   double wall_;
@@ -185,52 +204,54 @@ private:
 
 } // namespace
 
-double positivePartBound(const Moments& quadric, const TriangleTree& surface, double wall,
+double positivePartBound(const LayeredQuadric& q, const TriangleTree& surface, double wall,
                          double enough) {
-  return UpperBound(quadric, surface, wall).refine(enough);
+  return UpperBound(q, surface, wall).refine(enough);
 }
 
 namespace {
 
-/// How much w has at least, if that is positive.
-std::optional<double> marginOf(const Eigen::Matrix<double, 11, 1>& w, const Moments& solid,
-                               double fillDensity, const TriangleTree& surface, double wall) {
-  const double rounding =
-      kRounding * (w.head<10>().cwiseProduct(solid).cwiseAbs().sum() + std::abs(w[10]));
+/// The proof with its margin, if that is positive.
+std::optional<Certificate> withMargin(Certificate proof, const Moments& solid,
+                                      const TriangleTree& surface, double wall) {
+  const Eigen::Matrix<double, 11, 1> w = proof.functionals.rowwise().sum(); // of the solid
+  const Eigen::Matrix<double, 11, 1> size = proof.functionals.cwiseAbs().rowwise().sum();
+  const double rounding = kRounding * (size.head<10>().dot(solid.cwiseAbs()) + size[10]);
   const double ofSolid = w.head<10>().dot(solid) + w[10] - rounding;
   if (ofSolid <= 0.0) return std::nullopt;
-  const Moments worth = (1.0 - fillDensity) * w.head<10>();
-  const double margin = ofSolid - positivePartBound(worth, surface, wall, ofSolid);
-  return margin > 0.0 ? std::optional(margin) : std::nullopt;
+  const LayeredQuadric worth = worthOfHollowing(proof.functionals, proof.fillings);
+  proof.margin = ofSolid - positivePartBound(worth, surface, wall, ofSolid);
+  return proof.margin > 0.0 ? std::optional(std::move(proof)) : std::nullopt;
 }
 
 } // namespace
 
 std::optional<Certificate> certificate(const LinearConditions& conditions, double wantedLevel,
                                        const LevelBound& bound, const Moments& solid,
-                                       double fillDensity, const TriangleTree& surface,
+                                       const Fillings& fillings, const TriangleTree& surface,
                                        double wall) {
   Certificate result;
-  result.multipliers = bound.multipliers;
+  std::vector<Eigen::Index> counting;
+  for (Eigen::Index s = 0; s < bound.multipliers.cols(); ++s) {
+    if (bound.multipliers.col(s).isZero()) continue;
+    counting.push_back(s);
+    result.fillings.push_back(fillings[static_cast<std::size_t>(s)]);
+  }
+  result.multipliers = bound.multipliers(Eigen::all, counting);
   result.rows = conditions.atZero + wantedLevel * conditions.slopes;
-  result.functional = result.rows.transpose() * result.multipliers;
-  const auto margin = marginOf(result.functional, solid, fillDensity, surface, wall);
-  if (!margin) return std::nullopt;
-  result.margin = *margin;
-  return result;
+  result.functionals = result.rows.transpose() * result.multipliers;
+  return withMargin(std::move(result), solid, surface, wall);
 }
 
 std::optional<Certificate> certificate(const Vec3& normal, double limit, const Moments& solid,
-                                       double fillDensity, const TriangleTree& surface,
+                                       const Filling& filling, const TriangleTree& surface,
                                        double wall) {
   Certificate result;
-  result.functional.setZero();
-  result.functional[0] = limit;
-  result.functional.segment<3>(1) = -normal;
-  const auto margin = marginOf(result.functional, solid, fillDensity, surface, wall);
-  if (!margin) return std::nullopt;
-  result.margin = *margin;
-  return result;
+  result.fillings = {filling};
+  result.functionals.setZero(11, 1);
+  result.functionals(0, 0) = limit;
+  result.functionals.block<3, 1>(1, 0) = -normal;
+  return withMargin(std::move(result), solid, surface, wall);
 }
 
 } // namespace massprops

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -60,10 +61,11 @@ Functions orthonormalFunctions(const AdmissibleCells& cells, Eigen::Index terms)
 /// The bodies that are hollow where Σ q_i ψ_i > 0, by q.
 class HollowBodies {
 public:
-  HollowBodies(const Goal& goal, const Weights& weights, const Moments& solid, double fillDensity,
+  /// `fillings`: without levels of contents.
+  HollowBodies(const Goal& goal, const Weights& weights, const Moments& solid, Fillings fillings,
                const AdmissibleCells& cells)
-      : goal_(goal), weights_(weights), solid_(solid), filling_(fillDensity - 1.0), cells_(cells),
-        functions_(orthonormalFunctions(cells, goal.usesInertia() ? 10 : 4)) {}
+      : goal_(goal), weights_(weights), solid_(solid), fillings_(std::move(fillings)),
+        cells_(cells), functions_(orthonormalFunctions(cells, goal.usesInertia() ? 10 : 4)) {}
 
   /// First with a smooth border of the cavity, then with a sharp one.
   MinimizeResult best() const {
@@ -98,7 +100,11 @@ public:
                     kSharpness * q.normalized(), solver);
   }
 
-  Moments massMoments(const Vector& q) const { return bodyOf(hollow(q, sharpShare)); }
+  std::vector<Moments> states(const Vector& q) const {
+    std::vector<Moments> result;
+    for (const BodyState& state : statesOf(hollow(q, sharpShare))) result.push_back(state.mass);
+    return result;
+  }
   double objective(const Vector& q) const { return evaluate(q, sharpShare).objective; }
 
   /// Of (1, x, y, z, xx, yy, zz, xy, yz, zx).
@@ -138,59 +144,92 @@ private:
     return h;
   }
 
-  Moments bodyOf(const Hollow& h) const { return solid_ + filling_ * h.cavity; }
+  std::vector<BodyState> statesOf(const Hollow& h) const {
+    std::vector<BodyState> states;
+    for (const Filling& filling : fillings_) {
+      const double change = filling.density - 1.0;
+      states.push_back({solid_ + change * h.cavity, change * h.jacobian});
+    }
+    return states;
+  }
 
   Evaluation evaluate(const Vector& q, ShareOf shareOf) const {
     const Hollow h = hollow(q, shareOf);
-    return evaluateBody(goal_, weights_, bodyOf(h), filling_ * h.jacobian,
-                        1.0 - h.cavity[0] / solid_[0], -h.jacobian.row(0).transpose() / solid_[0]);
+    return evaluateBody(goal_, weights_, statesOf(h), 1.0 - h.cavity[0] / solid_[0],
+                        -h.jacobian.row(0).transpose() / solid_[0]);
   }
 
   const Goal& goal_;
   const Weights& weights_;
   const Moments& solid_;
-  double filling_; ///< density of the filling less that of the material
+  Fillings fillings_;
   const AdmissibleCells& cells_;
   Functions functions_;
 };
 
-void take(const HollowBodies& bodies, const Vector& q, OptimalBound& bound) {
-  bound.massMoments = bodies.massMoments(q);
+/// Makes it the bound's body, but for what follows from its states, which are returned.
+std::vector<Moments> take(const HollowBodies& bodies, const Vector& q, OptimalBound& bound) {
+  std::vector<Moments> states = bodies.states(q);
+  bound.massMoments = states.front();
   bound.objective = bodies.objective(q);
-  bound.quadric = bodies.quadric(q);
+  bound.worth = {{}, {bodies.quadric(q)}};
+  return states;
 }
 
-/// A local search.
-void findBody(const Goal& goal, const Weights& weights, const Moments& solid, double fillDensity,
-              const AdmissibleCells& cells, OptimalBound& bound) {
+/// A local search. `fillings`: without levels of contents.
+std::vector<Moments> findBody(const Goal& goal, const Weights& weights, const Moments& solid,
+                              const Fillings& fillings, const AdmissibleCells& cells,
+                              OptimalBound& bound) {
+  std::vector<Moments> states;
   const auto search = [&](const Goal& pursued) {
-    const HollowBodies bodies(pursued, weights, solid, fillDensity, cells);
-    take(bodies, bodies.best().x, bound);
+    const HollowBodies bodies(pursued, weights, solid, fillings, cells);
+    states = take(bodies, bodies.best().x, bound);
   };
   const std::unique_ptr<Goal> relaxed = goal.relaxed();
   if (relaxed) search(*relaxed);
-  if (!relaxed || largestViolation(goal, bound.massMoments) > kFeasibility) search(goal);
+  if (!relaxed || largestViolation(goal, states) > kFeasibility) search(goal);
+  return states;
 }
 
 /// How low the objective can be about an axis; a body that is nearer to that, if there is one.
 void findLeastAboutAxis(const Goal& goal, const Weights& weights, const Moments& solid,
-                        double fillDensity, const AdmissibleCells& cells, OptimalBound& bound) {
+                        const Filling& filling, const AdmissibleCells& cells, OptimalBound& bound) {
   const SpinningTask* task = goal.spinningTask();
   const bool isConstrained = weights.constraints > 0.0;
   if (task == nullptr || !isConstrained || bound.violation > kFeasibility) return;
   const std::optional<SpinningBound> least =
-      spinningBound(*task, weights.volume, bound.objective, solid, fillDensity, cells);
+      spinningBound(*task, weights.volume, bound.objective, solid, filling.density, cells);
   if (!least) return;
   if (!least->isNear(bound.objective)) {
-    const HollowBodies bodies(goal, weights, solid, fillDensity, cells);
+    const HollowBodies bodies(goal, weights, solid, {filling}, cells);
     const MinimizeResult other =
-        bodies.bestFrom((1.0 - fillDensity) * least->functional.head<10>().transpose());
+        bodies.bestFrom((1.0 - filling.density) * least->functional.head<10>().transpose());
     if (other.violation <= kFeasibility && other.objective < bound.objective) {
-      take(bodies, other.x, bound);
-      bound.violation = largestViolation(goal, bound.massMoments);
+      bound.violation = largestViolation(goal, take(bodies, other.x, bound));
     }
   }
   bound.objectiveAtLeast = std::min(bound.objective, least->objective);
+}
+
+/// Numbers of the states without a level of contents, and of those that the proof, if any, rests
+/// on.
+std::vector<std::size_t> bindingStates(const Fillings& fillings, const LevelBound* proof) {
+  constexpr double kLeastShare = 1e-3;
+  std::vector<std::size_t> binding;
+  for (std::size_t s = 0; s < fillings.size(); ++s) {
+    const auto column = static_cast<Eigen::Index>(s);
+    const bool binds = proof != nullptr && proof->multipliers.col(column).sum() > kLeastShare;
+    if (!fillings[s].isPartial() || binds) binding.push_back(s);
+  }
+  return binding;
+}
+
+template <class T>
+std::vector<T> chosen(const std::vector<T>& all, const std::vector<std::size_t>& numbers) {
+  std::vector<T> result;
+  result.reserve(numbers.size());
+  for (const std::size_t i : numbers) result.push_back(all[i]);
+  return result;
 }
 
 } // namespace
@@ -209,30 +248,37 @@ const LevelBound* OptimalBound::bestLevel() const {
 }
 
 OptimalBound optimalBound(const Goal& goal, const Weights& weights, const Moments& solid,
-                          double fillDensity, const AdmissibleCells& cells) {
+                          const Fillings& fillings, const AdmissibleCells& cells) {
   OptimalBound bound;
   bound.wantedLevel = goal.wantedLevel();
   const auto findLevels = [&] {
     for (const LinearConditions& conditions : goal.conditions()) {
-      bound.levels.push_back(greatestLevel(conditions, solid, fillDensity, cells));
+      bound.levels.push_back(greatestLevel(conditions, solid, fillings, cells));
     }
   };
   const bool isMeasured = goal.measure(solid).has_value();
   if (isMeasured) findLevels();
+  const std::vector<std::size_t> binding = bindingStates(fillings, bound.bestLevel());
+  bound.binding = chosen(fillings, binding);
+  std::vector<Moments> states;
   if (!bound.levels.empty() && weights.volume == 0.0) {
     const LevelBound& best = *bound.bestLevel();
-    bound.massMoments = best.body;
-    bound.quadric = (1.0 - fillDensity) * best.functional.head<10>();
-    bound.objective = goal.objective(best.body).value;
+    states = best.states;
+    bound.massMoments = states.front();
+    bound.worth = best.worth;
+    Weights unconstrained = weights;
+    unconstrained.constraints = 0.0;
+    bound.objective = momentObjective(goal, unconstrained, chosen(states, binding), 1.0);
   } else {
-    findBody(goal, weights, solid, fillDensity, cells, bound);
+    states = findBody(goal, weights, solid, chosen(fillings, bindingStates(fillings, nullptr)),
+                      cells, bound);
   }
-  if (weights.volume == 0.0) bound.measure = goal.measure(bound.massMoments);
-  bound.violation = largestViolation(goal, bound.massMoments);
-  findLeastAboutAxis(goal, weights, solid, fillDensity, cells, bound);
+  if (weights.volume == 0.0) bound.measure = measure(goal, states);
+  bound.violation = largestViolation(goal, states);
+  findLeastAboutAxis(goal, weights, solid, fillings.front(), cells, bound);
   if (!isMeasured && bound.violation > OptimalBound::kReachable) findLevels();
-  bound.outOfReach =
-      goal.noneCan(bound.massMoments, [&] { return achievableCentres(solid, fillDensity, cells); });
+  bound.outOfReach = goal.noneCan(
+      bound.massMoments, [&] { return achievableCentres(solid, fillings.front().density, cells); });
   return bound;
 }
 
@@ -244,9 +290,7 @@ Vector offsetsTowards(const OptimalBound& bound, const Points& vertices, const P
     for (int step = 0; step <= kSteps && lower[v] < upper[v]; ++step) {
       const double offset = lower[v] + (upper[v] - lower[v]) * step / kSteps;
       const Vec3 y = (vertices.row(v) - offset * directions.row(v)).transpose();
-      Moments monomials;
-      monomials << 1.0, y, y.cwiseAbs2(), y.x() * y.y(), y.y() * y.z(), y.z() * y.x();
-      if (monomials.dot(bound.quadric) <= 0.0) continue;
+      if (bound.worth.valueAt(y) <= 0.0) continue;
       offsets[v] = offset;
       break;
     }

@@ -4,7 +4,9 @@
 #include "core/base/options.h"
 #include "core/goals/goal.h"
 #include "core/optimum/admissible_cells.h"
+#include "core/optimum/layered_quadric.h"
 #include "core/optimum/level_bound.h"
+#include "core/physics/filling.h"
 
 #include <optional>
 #include <vector>
@@ -18,14 +20,14 @@ struct OptimalBound {
   /// Known this exactly: a lower violation counts as none.
   static constexpr double kReachable = 1e-4;
 
-  Moments massMoments = Moments::Zero();
-  double objective = 0.0; ///< terms 1, 2, 3 and 5
+  Moments massMoments = Moments::Zero(); ///< in the first of its states
+  double objective = 0.0;                ///< terms 1, 2, 3 and 5
   /// No body that is hollow within the cells and keeps the constraints has a lower objective;
   /// empty: not known.
   std::optional<double> objectiveAtLeast;
   /// Largest of the goal's constraints; > 0: no cavity was found to hold all.
   double violation = 0.0;
-  /// Of this body, where the goal's measure is all that counts.
+  /// Of this body in all its states, where the goal's measure is all that counts.
   std::optional<double> measure;
   /// Of the goal's conditions, in their order; empty where they are not linear, or where this body
   /// meets them and the goal has no measure.
@@ -34,8 +36,10 @@ struct OptimalBound {
   /// If no cavity that has its centre of mass within these does what the goal asks for: they hold
   /// all that cavities can have, as far as the cells tell. See `Goal::noneCan`.
   std::optional<HalfSpaces> outOfReach;
-  /// (1, x, y, z, xx, yy, zz, xy, yz, zx)·quadric > 0 where the body is hollow.
-  Moments quadric = Moments::Zero();
+  /// Positive where the body is hollow.
+  LayeredQuadric worth;
+  /// States that the proof of the best level rests on, and those without a level of contents.
+  Fillings binding;
 
   /// Whether the best body that was found does what the goal asks for.
   bool isReachable() const;
@@ -44,12 +48,13 @@ struct OptimalBound {
 };
 
 /// The best hollow body within the cells, of which there must be one. `solid`: moments of the body
-/// without a cavity, density 1; `fillDensity`: as a multiple of the material's.
+/// without a cavity, density 1; `fillings`: the states in which it is to serve the goal, those with
+/// a level of contents only where the goal has a measure that is all that counts.
 OptimalBound optimalBound(const Goal& goal, const Weights& weights, const Moments& solid,
-                          double fillDensity, const AdmissibleCells& cells);
+                          const Fillings& fillings, const AdmissibleCells& cells);
 
 /// Offsets with which the inner surface comes nearest to that body's cavity: every point goes in
-/// until the quadric is positive, as far as its bounds allow. n lengths.
+/// until hollowing is worth it, as far as its bounds allow. n lengths.
 Vector offsetsTowards(const OptimalBound& bound, const Points& vertices, const Points& directions,
                       const Vector& lower, const Vector& upper);
 

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <vector>
 
 namespace massprops {
 namespace {
@@ -196,7 +197,8 @@ Vector towardsBound(const CavityTask& task, const OffsetModel& model, const Vect
 /// Whether a second start may pay: the goal is missed, or a good part of what is possible.
 bool isFarFromBound(const CavityTask& task, const MinimizeResult& best) {
   if (!task.bound) return false;
-  const double solid = momentObjective(task.goal, task.weights, task.model.solidMoments, 1.0);
+  const std::vector<Moments> states(task.model.fillings.size(), task.model.solidMoments);
+  const double solid = momentObjective(task.goal, task.weights, states, 1.0);
   if (best.violation > std::max(kFeasibility, task.bound->violation)) return true;
   // The bound knows nothing of smoothness.
   return task.weights.smoothness == 0.0 &&

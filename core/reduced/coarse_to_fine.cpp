@@ -45,7 +45,7 @@ MinimizeResult minimizeCoarseToFine(const OffsetModel& model, const Goal& goal,
   coarse.inner = {rowsOf(model.inner.lower, carrier.vertexOf),
                   rowsOf(model.inner.upper, carrier.vertexOf)};
   coarse.innerFaces = clustered(model.innerFaces, carrier.vertexFor);
-  coarse.fillDensity = model.fillDensity;
+  coarse.fillings = model.fillings;
   coarse.solidMoments = model.solidMoments;
   const auto standIn = [&](const Vector& x) { return evaluate(coarse, goal, weights, x); };
   const MinimizeResult rough = minimize(standIn, start, options);

@@ -3,36 +3,49 @@
 #include "core/base/tolerances.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <memory>
+#include <vector>
 
 namespace massprops {
 
-Body inputBody(const CavityTask& task) {
+namespace {
+
+/// Without offsets.
+Body bodyOf(const CavityTask& task, const Goal& goal, const std::vector<Moments>& states,
+            double volume) {
   Body body;
-  body.mass = task.inputMoments;
-  body.volume = task.inputMoments[0];
-  const double share = body.volume / task.model.solidMoments[0];
-  body.momentObjective = momentObjective(task.goal, task.weights, body.mass, share);
+  body.mass = states.front();
+  body.volume = volume;
+  const double share = volume / task.model.solidMoments[0];
+  body.momentObjective = momentObjective(goal, task.weights, states, share);
   body.objective = body.momentObjective;
-  body.violation = largestViolation(task.goal, body.mass);
-  body.measure = task.goal.measure(body.mass);
+  body.violation = largestViolation(goal, states);
+  body.measure = measure(goal, states);
   return body;
 }
 
+} // namespace
+
+Body inputBody(const CavityTask& task) {
+  // The cavities that it has are empty or full.
+  const Moments cavities = task.model.solidMoments - task.inputMoments;
+  std::vector<Moments> states{task.inputMoments};
+  for (std::size_t s = 1; s < task.model.fillings.size(); ++s) {
+    states.emplace_back(task.inputMoments + task.model.fillings[s].density * cavities);
+  }
+  return bodyOf(task, task.goal, states, task.inputMoments[0]);
+}
+
 Body hollowBody(const CavityTask& task, const CavityResult& cavity) {
-  const Moments inner = moments(cavity.inner, cavity.cavity.faces);
   const Moments outer = outerMoments(task, cavity);
-  Body body;
-  body.mass = shellMoments(outer, inner, 1.0, task.model.fillDensity);
-  body.volume = outer[0] - inner[0];
+  const Moments inner = moments(cavity.inner, cavity.cavity.faces);
   const std::unique_ptr<Goal> moved = task.goalFor ? task.goalFor(cavity.outer) : nullptr;
-  const Goal& goal = moved ? *moved : task.goal;
-  const double share = body.volume / task.model.solidMoments[0];
-  body.momentObjective = momentObjective(goal, task.weights, body.mass, share);
-  body.objective = body.momentObjective + offsetObjective(*task.model.surface, task.weights,
-                                                          cavity.innerOffsets, cavity.outerOffsets);
-  body.violation = largestViolation(goal, body.mass);
-  body.measure = goal.measure(body.mass);
+  Body body = bodyOf(task, moved ? *moved : task.goal,
+                     filledMoments(outer, cavity.inner, cavity.cavity.faces, task.model.fillings),
+                     outer[0] - inner[0]);
+  body.objective +=
+      offsetObjective(*task.model.surface, task.weights, cavity.innerOffsets, cavity.outerOffsets);
   return body;
 }
 

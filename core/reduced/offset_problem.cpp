@@ -66,35 +66,66 @@ Points displaced(const OffsetModel& model, const Vector& offsets, double sign) {
 }
 
 /// The cavity's moments and their derivatives by α.
-struct CavityMoments {
-  Moments value;
-  MomentJacobian jacobian;
+class CavityMoments {
+public:
+  CavityMoments(const OffsetModel& model, const OffsetSurfaces& surfaces)
+      : model_(model), slopes_(surfaces.innerSlopes), rows_(surfaces.inner.rows()),
+        positions_(surfaces.inner), directions_(model.field.directions) {
+    if (!model.isOpen) return;
+    // The strips and lids have corners on the outer surface, which rest.
+    positions_ = stacked(positions_, model.surface->vertices);
+    directions_ = stacked(directions_, Points::Zero(rows_, 3));
+  }
+
+  /// `usesInertia`: if not, the second moments and their derivatives are 0.
+  BodyState all(bool usesInertia) const {
+    return withJacobian(momentsWithRates(positions_, model_.innerFaces, directions_, usesInertia));
+  }
+
+  BodyState below(double level) const {
+    return withJacobian(momentsBelowWithRates(positions_, model_.innerFaces, directions_, level));
+  }
+
+private:
+  BodyState withJacobian(MomentsWithRates both) const {
+    if (both.rates.rows() > rows_) both.rates = both.rates.topRows(rows_).eval();
+    return {both.moments, jacobian(model_, std::move(both.rates), slopes_, -1.0)};
+  }
+
+  const OffsetModel& model_;
+  const Vector& slopes_;
+  Eigen::Index rows_; ///< that move
+  Points positions_, directions_;
 };
 
-/// `usesInertia`: if not, the second moments and their derivatives are 0.
-CavityMoments momentsOf(const OffsetModel& model, const OffsetSurfaces& surfaces,
-                        bool usesInertia) {
-  if (model.isOpen) {
-    // The strips and lids have corners on the outer surface, which rest.
-    const Eigen::Index n = model.surface->vertices.rows();
-    const MomentsWithRates both =
-        momentsWithRates(stacked(surfaces.inner, model.surface->vertices), model.innerFaces,
-                         stacked(model.field.directions, Points::Zero(n, 3)), usesInertia);
-    return {both.moments, jacobian(model, both.rates.topRows(n), surfaces.innerSlopes, -1.0)};
+/// The body in each of its states. `outer`: by the coefficients, α first.
+std::vector<BodyState> statesOf(const OffsetModel& model, const BodyState& outer,
+                                const BodyState& cavity, const CavityMoments& moments) {
+  const Eigen::Index k = cavity.jacobian.cols();
+  std::vector<BodyState> states;
+  for (const Filling& filling : model.fillings) {
+    const double density = filling.isPartial() ? 0.0 : filling.density;
+    BodyState state{shellMoments(outer.mass, cavity.mass, 1.0, density), outer.jacobian};
+    state.jacobian.leftCols(k) += (density - 1.0) * cavity.jacobian;
+    if (filling.isPartial()) {
+      const BodyState contents = moments.below(filling.level);
+      state.mass += filling.density * contents.mass;
+      state.jacobian.leftCols(k) += filling.density * contents.jacobian;
+    }
+    states.push_back(std::move(state));
   }
-  MomentsWithRates inner =
-      momentsWithRates(surfaces.inner, model.innerFaces, model.field.directions, usesInertia);
-  return {inner.moments, jacobian(model, std::move(inner.rates), surfaces.innerSlopes, -1.0)};
+  return states;
 }
 
-/// Terms 1–3 and 5 and the constraints, while the outer surface stays.
-Evaluation evaluateCavity(const OffsetModel& model, const Goal& goal, const Weights& weights,
-                          const CavityMoments& cavity) {
-  const double solidVolume = model.solidMoments[0];
-  return evaluateBody(
-      goal, weights, shellMoments(model.solidMoments, cavity.value, 1.0, model.fillDensity),
-      (model.fillDensity - 1.0) * cavity.jacobian, (solidVolume - cavity.value[0]) / solidVolume,
-      -cavity.jacobian.row(0).transpose() / solidVolume);
+/// Of the outer surface, by α and, if it moves, β.
+BodyState outerState(const OffsetModel& model, const OffsetSurfaces& surfaces, bool usesInertia) {
+  const Eigen::Index k = model.surface->basis.functions.cols();
+  if (!model.outer) return {model.solidMoments, MomentJacobian::Zero(10, k)};
+  MomentsWithRates moved =
+      momentsWithRates(surfaces.outer, model.surface->faces, model.field.directions, usesInertia);
+  BodyState outer{moved.moments, MomentJacobian::Zero(10, 2 * k)};
+  outer.jacobian.rightCols(k) = jacobian(model, std::move(moved.rates), surfaces.outerSlopes, 1.0);
+  return outer;
 }
 
 } // namespace
@@ -119,25 +150,15 @@ Evaluation evaluate(const OffsetModel& model, const Goal& goal, const Weights& w
                     const Vector& coefficients) {
   const Eigen::Index k = model.surface->basis.functions.cols();
   const OffsetSurfaces surfaces = offsetSurfaces(model, coefficients);
-  const CavityMoments inner = momentsOf(model, surfaces, goal.usesInertia());
-  Evaluation e;
-  if (model.outer) {
-    const double solidVolume = model.solidMoments[0];
-    MomentsWithRates moved = momentsWithRates(surfaces.outer, model.surface->faces,
-                                              model.field.directions, goal.usesInertia());
-    const Moments& outer = moved.moments;
-    const MomentJacobian outerJacobian =
-        jacobian(model, std::move(moved.rates), surfaces.outerSlopes, 1.0);
-    MomentJacobian massJacobian(10, 2 * k);
-    massJacobian << (model.fillDensity - 1.0) * inner.jacobian, outerJacobian;
-    Vector volumeGradient(2 * k);
-    volumeGradient << -inner.jacobian.row(0).transpose(), outerJacobian.row(0).transpose();
-    e = evaluateBody(goal, weights, shellMoments(outer, inner.value, 1.0, model.fillDensity),
-                     massJacobian, (outer[0] - inner.value[0]) / solidVolume,
-                     volumeGradient / solidVolume);
-  } else {
-    e = evaluateCavity(model, goal, weights, inner);
-  }
+  const CavityMoments cavityMoments(model, surfaces);
+  const BodyState cavity = cavityMoments.all(goal.usesInertia());
+  const BodyState outer = outerState(model, surfaces, goal.usesInertia());
+  const double solidVolume = model.solidMoments[0];
+  Vector volumeGradient = outer.jacobian.row(0).transpose();
+  volumeGradient.head(k) -= cavity.jacobian.row(0).transpose();
+  Evaluation e =
+      evaluateBody(goal, weights, statesOf(model, outer, cavity, cavityMoments),
+                   (outer.mass[0] - cavity.mass[0]) / solidVolume, volumeGradient / solidVolume);
 
   // Term 4: Dirichlet energy δᵀLδ of the inner offsets.
   if (weights.smoothness != 0.0) {

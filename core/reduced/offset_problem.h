@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/goals/objective.h"
+#include "core/physics/filling.h"
 #include "core/reduced/moving_surface.h"
 #include "core/reduced/offset_bounds.h"
 
@@ -19,9 +20,9 @@ struct OffsetModel {
   /// Of the cavity, outward, over the same vertices; of an open surface over 2n positions
   /// (open_surface.h).
   Faces innerFaces;
-  double fillDensity = 0.0; ///< as a multiple of the material's density
-  Moments solidMoments;     ///< of the input surface
-  bool isOpen = false;      ///< whether `innerFaces` are those of an open surface
+  Fillings fillings{{}}; ///< in which the body is to serve the goal
+  Moments solidMoments;  ///< of the input surface
+  bool isOpen = false;   ///< whether `innerFaces` are those of an open surface
 };
 
 /// The two surfaces that a set of coefficients stands for.

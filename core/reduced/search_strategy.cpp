@@ -3,8 +3,11 @@
 #include "core/reduced/hollow_body.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <limits>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace massprops {
 namespace {
@@ -26,10 +29,9 @@ bool isFarFromBound(const CavityTask& task, const CavityResult& cavity) {
   return gapToBound(*task.bound, inputBody(task), hollowBody(task, cavity)) > kFarFromBound;
 }
 
-} // namespace
-
-CavityResult bestCavity(const CavityTask& task, const Redirected& steeper,
-                        const std::function<void(double)>& progress) {
+/// For the task's fillings as they are.
+CavityResult bestOfSearches(const CavityTask& task, const Redirected& steeper,
+                            const std::function<void(double)>& progress) {
   CavityResult best = searchCavity(task, progress);
   SearchEffort effort = best.effort;
   if (task.bound && isUseless(task, best)) {
@@ -40,9 +42,66 @@ CavityResult bestCavity(const CavityTask& task, const Redirected& steeper,
     effort += best.effort;
   }
   if (isFarFromBound(task, best)) {
-    CavityResult steep = searchCavity(steeper(), progress);
+    CavityTask redirected = steeper();
+    redirected.model.fillings = task.model.fillings;
+    CavityResult steep = searchCavity(redirected, progress);
     effort += steep.effort;
     if (servesBetter(task, steep, best)) best = std::move(steep);
+  }
+  best.effort = effort;
+  return best;
+}
+
+} // namespace
+
+std::optional<Filling> weakestFilling(const CavityTask& task, const CavityResult& cavity) {
+  constexpr int kLevels = 48;
+  // In the measure's unit, degrees.
+  constexpr double kNoticeable = 0.02;
+  const Fillings& known = task.model.fillings;
+  if (known.size() < 2 || cavity.status != CavityStatus::Found) return std::nullopt;
+  std::optional<double> least = hollowBody(task, cavity).measure;
+  if (!least || cavity.cavity.faces.rows() == 0) return std::nullopt;
+  *least -= kNoticeable;
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const int v : cavity.cavity.faces.reshaped()) {
+    low = std::min(low, cavity.inner(v, 2));
+    high = std::max(high, cavity.inner(v, 2));
+  }
+  Fillings levels;
+  for (int i = 1; i < kLevels; ++i) {
+    levels.push_back({known.back().density, low + (high - low) * i / kLevels});
+  }
+  const std::vector<Moments> states =
+      filledMoments(outerMoments(task, cavity), cavity.inner, cavity.cavity.faces, levels);
+  std::optional<Filling> weakest;
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const double own = *task.goal.measure(states[i]);
+    if (own >= *least) continue;
+    least = own;
+    weakest = levels[i];
+  }
+  return weakest;
+}
+
+CavityResult bestCavity(CavityTask& task, const Redirected& steeper,
+                        const std::function<void(double)>& progress) {
+  constexpr int kMostRepetitions = 4;
+  Fillings& fillings = task.model.fillings;
+  CavityResult best = bestOfSearches(task, steeper, progress);
+  SearchEffort effort = best.effort;
+  std::optional<Filling> weakest = weakestFilling(task, best);
+  if (weakest && task.bound) fillings = task.bound->binding;
+  if (weakest) fillings.push_back(*weakest);
+  for (int i = 0; i < kMostRepetitions && weakest; ++i) {
+    CavityResult other = bestOfSearches(task, steeper, progress);
+    effort += other.effort;
+    // Each is judged at its own weakest level, too.
+    weakest = weakestFilling(task, other);
+    if (weakest) fillings.push_back(*weakest);
+    if (!servesBetter(task, other, best)) break;
+    best = std::move(other);
   }
   if (isUseless(task, best)) best.status = CavityStatus::NoGain;
   best.effort = effort;

@@ -4,6 +4,7 @@
 #include "core/reduced/cavity_search.h"
 
 #include <functional>
+#include <optional>
 
 namespace massprops {
 
@@ -12,10 +13,17 @@ using Redirected = std::function<CavityTask()>;
 
 /// The best cavity of up to three searches: the second without a start near the bound's cavity,
 /// where the first serves the goal no better than the solid; the third along `steeper` directions,
-/// where much of what is possible is left. Their effort is added up. Status NoGain: there is a
-/// cavity, but the solid body serves the goal at least as well. `progress` as for `searchCavity`.
-CavityResult bestCavity(const CavityTask& task, const Redirected& steeper,
+/// where much of what is possible is left. Where the body is to serve the goal with different
+/// contents, and serves it worse with these up to a level between, that level becomes one of the
+/// task's fillings and the searches are repeated, as long as that helps. Their effort is added up.
+/// Status NoGain: there is a cavity, but the solid body serves the goal at least as well.
+/// `progress` as for `searchCavity`.
+CavityResult bestCavity(CavityTask& task, const Redirected& steeper,
                         const std::function<void(double)>& progress);
+
+/// The contents among levels all over the cavity's height with which the body serves the goal
+/// least; empty where none of them is noticeably worse than the task's own fillings.
+std::optional<Filling> weakestFilling(const CavityTask& task, const CavityResult& cavity);
 
 /// The greatest wall below the wanted one that leaves room for a cavity, within an eighth of it,
 /// working length; 0 when none was found down to a thousandth. `boundsFor`: the offsets' bounds

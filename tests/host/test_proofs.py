@@ -58,16 +58,29 @@ class Voxels:
             edge /= 2
             x = (x[is_cut][:, None] + edge * CORNERS).reshape(-1, 3)
 
-    def bounds_positive_part(self, w):
-        """At least the integral of the positive part of w, which is linear: that is convex, so that
-        it lies below the mean of its corners."""
-        assert not w[4:10].any()
-        return sum(np.mean([np.maximum(0, w[0] + (x + edge * c) @ w[1:4]) for c in CORNERS],
-                           axis=0).sum() * edge ** 3 for x, edge in self.parts)
+    def bounds_positive_part(self, states):
+        """At least the integral of the positive part of what hollowing out a point takes away.
+        `states`: density and level of the contents, and w, which is linear. Between two levels the
+        positive part is convex, so that it lies below the mean of its corners; so is the greatest
+        of those of all parts that the levels cut a voxel into."""
+        assert not any(w[4:10].any() for _, _, w in states)
+        ends = [-np.inf, *sorted({level for _, level, _ in states} - {np.inf}), np.inf]
+        total = 0
+        for x, edge in self.parts:
+            greatest = np.zeros((len(CORNERS), len(x)))
+            for low, high in zip(ends, ends[1:]):
+                u = sum((1 - density if high <= level else 1) * w for density, level, w in states)
+                meets = (x[:, 2] + edge / 2 >= low) & (x[:, 2] - edge / 2 <= high)
+                values = np.array([u[0] + (x[meets] + edge * c) @ u[1:4] for c in CORNERS])
+                greatest[:, meets] = np.maximum(greatest[:, meets], values)
+            total += greatest.mean(axis=0).sum() * edge ** 3
+        return total
 
-    def prove_positive(self, w):
-        """Whether w is positive for every body that is hollow where the wall allows it."""
-        return w[:10] @ self.solid + w[10] > self.bounds_positive_part(w)
+    def prove_positive(self, states):
+        """Whether the sum of all w is positive for every body that is hollow where the wall allows
+        it."""
+        return sum(w[:10] @ self.solid + w[10] for _, _, w in states) > \
+            self.bounds_positive_part(states)
 
 
 class RollingBody:
@@ -212,32 +225,44 @@ def neighbours_of(triangles):
 
 
 class ProofsTest(HostTest):
-    def test_no_cavity_makes_the_egg_and_the_skittle_stand(self):
-        for sample in ("leaning_egg", "leaning_skittle"):
-            model = read_ply(SAMPLES / f"{sample}.ply")
-            diagonal = np.linalg.norm(np.ptp(model[0], axis=0))
-            wall = 0.03 * diagonal
-            script = {"inner_lower_bound": wall, "outer_lower_bound": 0, "outer_upper_bound": 0}
-            report, _ = self.run_filter(SAMPLES / f"{sample}.ply", script_of(sample), **script)
-            self.assertTrue(report["certified"], report["message"])
-            self.assertIn("No cavity of any shape that keeps this wall can reach it",
-                          report["message"])
-            origin, length = report["certificate_origin"], report["certificate_length"]
-            vertices = (model[0] - origin) / length
-            polygon = measure.contact_polygon(vertices)
+    def check_proof(self, sample, script, share):
+        model = read_ply(SAMPLES / f"{sample}.ply")
+        wall = share * np.linalg.norm(np.ptp(model[0], axis=0))
+        values = {"inner_lower_bound": wall, "outer_lower_bound": 0, "outer_upper_bound": 0}
+        report, _ = self.run_filter(SAMPLES / f"{sample}.ply", script_of(script), **values)
+        self.assertTrue(report["certified"], report["message"])
+        self.assertIn("No cavity of any shape that keeps this wall can reach it",
+                      report["message"])
+        origin, length = report["certificate_origin"], report["certificate_length"]
+        vertices = (model[0] - origin) / length
+        polygon = measure.contact_polygon(vertices)
+        states = []
+        for filling, functional, conditions in zip(report["certificate_fillings"].split("; "),
+                                                   report["certificate_functional"].split("; "),
+                                                   report["certificate_conditions"].split(" | ")):
             w = np.zeros(11)
-            for term in report["certificate_conditions"].split("; "):
-                share, row = term.split(" x ")
+            for term in conditions.split("; "):
+                multiplier, row = term.split(" x ")
                 row = np.array(row.split(), dtype=float)
-                self.assertGreater(float(share), 0)
+                self.assertGreater(float(multiplier), 0)
                 # u·S − h m ≤ 0 with a direction u and at least the area's extent h along it.
                 self.assertAlmostEqual(np.linalg.norm(row[1:3]), 1, delta=1e-9)
                 self.assertGreaterEqual(-row[0], (polygon @ row[1:3]).max() - 1e-6)
                 self.assertFalse(row[3:].any())
-                w += float(share) * row
-            functional = np.array(report["certificate_functional"].split(), dtype=float)
-            np.testing.assert_allclose(functional, w, atol=1e-12)
-            self.assertTrue(Voxels(vertices, model[1], wall / length).prove_positive(w))
+                w += float(multiplier) * row
+            np.testing.assert_allclose(np.array(functional.split(), dtype=float), w, atol=1e-12)
+            states.append((*map(float, filling.split()), w))
+        self.assertTrue(Voxels(vertices, model[1], wall / length).prove_positive(states))
+        return states
+
+    def test_no_cavity_makes_the_egg_and_the_skittle_stand(self):
+        for sample in ("leaning_egg", "leaning_skittle"):
+            states = self.check_proof(sample, sample, 0.03)
+            self.assertEqual([state[:2] for state in states], [(0, np.inf)])
+
+    def test_no_cavity_makes_the_egg_a_container(self):
+        states = self.check_proof("leaning_egg", "leaning_jar", 0.02)
+        self.assertTrue(any(density > 0 for density, _, _ in states))
 
     def test_no_cavity_gives_the_roly_poly_with_a_thick_wall_one_resting_face(self):
         sample = SAMPLES / "roly_poly.ply"
@@ -256,7 +281,7 @@ class ProofsTest(HostTest):
             # t m − u·S with a unit vector u: no centre of mass is beyond t.
             self.assertAlmostEqual(np.linalg.norm(w[1:4]), 1, delta=1e-9)
             self.assertFalse(w[4:].any())
-            self.assertTrue(voxels.prove_positive(w))
+            self.assertTrue(voxels.prove_positive([(0, np.inf, w)]))
             normals.append(-w[1:4])
             limits.append(w[0])
         self.assertGreater(len(limits), 0)

@@ -211,6 +211,33 @@ Eigen::Matrix<double, 10, 1> quadratureMoments(const TriangleMesh& mesh) {
   return sum;
 }
 
+Eigen::Vector4d momentsOfColumns(const TriangleMesh& mesh, const Vec3& up, double level) {
+  Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+  // A column over p that is h high: h and ∫x = p h + up h²/2, quadratic over a triangle, for which
+  // the rule of the edges' middles is exact. Triangles that face downwards count positive.
+  const auto add = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+    const double area = -0.5 * up.dot((b - a).cross(c - a));
+    for (const Vec3& p : {Vec3(0.5 * (a + b)), Vec3(0.5 * (b + c)), Vec3(0.5 * (c + a))}) {
+      const double h = level - up.dot(p);
+      sum[0] += area / 3 * h;
+      sum.tail<3>() += area / 3 * (h * p + 0.5 * h * h * up);
+    }
+  };
+  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
+    std::vector<Vec3> below;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 p = corner(mesh, f, k);
+      const Vec3 q = corner(mesh, f, (k + 1) % 3);
+      const double hp = up.dot(p) - level;
+      const double hq = up.dot(q) - level;
+      if (hp <= 0) below.push_back(p);
+      if ((hp < 0 && hq > 0) || (hp > 0 && hq < 0)) below.push_back(p + hp / (hp - hq) * (q - p));
+    }
+    for (std::size_t i = 2; i < below.size(); ++i) add(below[0], below[i - 1], below[i]);
+  }
+  return sum;
+}
+
 Body bodyOf(const Eigen::Matrix<double, 10, 1>& m) {
   Body body;
   body.mass = m[0];

@@ -37,6 +37,10 @@ double leastDistance(const TriangleMesh& a, const TriangleMesh& b);
 /// quadrature on the triangles, exact for these polynomials.
 Eigen::Matrix<double, 10, 1> quadratureMoments(const TriangleMesh& mesh);
 
+/// Volume integrals of 1, x, y, z over what lies below the plane `up`·x = `level`: columns from the
+/// clipped triangles up to the plane. `up`: unit.
+Eigen::Vector4d momentsOfColumns(const TriangleMesh& mesh, const Vec3& up, double level);
+
 /// Mass, centre of mass and central inertia tensor from given moments of mass.
 struct Body {
   double mass;

@@ -69,6 +69,17 @@ TEST(Checks, IntegrateBoxesExactly) {
   EXPECT_LT((quadratureMoments(mesh) - expected).cwiseAbs().maxCoeff(), 1e-12 * 18);
 }
 
+TEST(Checks, IntegrateWhatLiesBelowALevel) {
+  const Mat3 turn = someRotation();
+  const Vec3 up = turn.col(2);
+  const TriangleMesh turned = transformed(box({1, 2, 3}, 2), turn, {0.3, -0.2, 0.1});
+  const double level = up.dot(Vec3(0.3, -0.2, 0.1)) - 0.4; // 1.1 above the box's foot
+  const Eigen::Vector4d below = momentsOfColumns(turned, up, level);
+  EXPECT_NEAR(below[0], 2.2, 1e-12);
+  const Vec3 centre = Vec3(0.3, -0.2, 0.1) + turn * Vec3(0, 0, 0.55 - 1.5);
+  EXPECT_LT((below.tail<3>() - 2.2 * centre).norm(), 1e-12);
+}
+
 TEST(Checks, CountEdges) {
   EXPECT_TRUE(isClosedAndOriented(figure(2)));
   EXPECT_EQ(eulerCharacteristic(figure(2)), 2);

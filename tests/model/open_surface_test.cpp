@@ -212,7 +212,7 @@ TEST(OpenSurface, HasTheMomentRatesOfItsStripsToo) {
   const Moments inner = quadratureMoments({positions, open.cavity});
   const Moments shell = model.solidMoments - inner;
   EXPECT_NEAR(at.objective,
-              momentObjective(*goal, weights, shell, shell[0] / model.solidMoments[0]), 1e-11);
+              momentObjective(*goal, weights, {shell}, shell[0] / model.solidMoments[0]), 1e-11);
   const double h = 1e-5;
   for (int j = 0; j < 3; ++j) {
     Vector step = Vector::Zero(3);

@@ -15,7 +15,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <string>
 
 namespace massprops::testing {
@@ -84,10 +87,25 @@ TEST(PositivePartBound, IsCloseAboveTheIntegral) {
   const double ofSaddle = 0.8 * 2.0 / 3.0 * std::pow(0.4, 4);
   for (const auto& [quadric, exact] :
        {std::pair(one, 0.512), std::pair(upper, 0.64 * 0.08), std::pair(saddle, ofSaddle)}) {
-    const double bound = positivePartBound(quadric, surface, wall, 1.01 * exact);
+    const double bound = positivePartBound({{}, {quadric}}, surface, wall, 1.01 * exact);
     EXPECT_GE(bound, exact);
     EXPECT_LE(bound, 1.01 * exact);
   }
+}
+
+TEST(PositivePartBound, KnowsLayers) {
+  const TriangleMesh cube = standingCube();
+  const TriangleTree surface(cube.vertices, cube.faces);
+  Moments one = Moments::Zero();
+  one[0] = 1.0;
+  // −2 up to a third of the height, then x, then 3 from 0.7 on: over the cube of 0.8.
+  Moments x = Moments::Zero();
+  x[1] = 1.0;
+  const LayeredQuadric q{{1.0 / 3.0, 0.7}, {-2.0 * one, x, 3.0 * one}};
+  const double exact = (0.7 - 1.0 / 3.0) * 0.8 * 0.08 + 3.0 * 0.64 * 0.2;
+  const double bound = positivePartBound(q, surface, 0.1, 1.01 * exact);
+  EXPECT_GE(bound, exact);
+  EXPECT_LE(bound, 1.01 * exact);
 }
 
 class Proof : public ::testing::Test {
@@ -96,10 +114,10 @@ protected:
       : mesh_(sampleMesh("leaning_egg")), posed_(makePosedModel(makeSolid(mesh_), {})),
         surface_(posed_.vertices, posed_.faces), solid_(moments(posed_.vertices, posed_.faces)),
         conditions_(makeStandGoal(posed_.contact, {})->conditions().front()),
-        bound_(greatestLevel(conditions_, solid_, 0.0, admissibleCells(surface_, posed_.wall))) {}
+        bound_(greatestLevel(conditions_, solid_, {{}}, admissibleCells(surface_, posed_.wall))) {}
 
   std::optional<Certificate> prove(double angle) const {
-    return certificate(conditions_, std::tan(angle / kDegrees), bound_, solid_, 0.0, surface_,
+    return certificate(conditions_, std::tan(angle / kDegrees), bound_, solid_, {{}}, surface_,
                        posed_.wall);
   }
   double best() const { return std::atan(bound_.reached) * kDegrees; }
@@ -118,9 +136,10 @@ TEST_F(Proof, IsFoundWhereTheBestFailsByAFifthOfADegree) {
   EXPECT_GT(proof->margin, 0.0);
   EXPECT_GE(proof->multipliers.minCoeff(), 0.0);
   // The functional is the sum of the conditions, and positive for solid and best body.
-  EXPECT_LT((proof->rows.transpose() * proof->multipliers - proof->functional).norm(), 1e-12);
-  for (const Moments& body : {solid_, bound_.body}) {
-    EXPECT_GE(proof->functional.head<10>().dot(body) + proof->functional[10], 0.9 * proof->margin);
+  EXPECT_LT((proof->rows.transpose() * proof->multipliers - proof->functionals).norm(), 1e-12);
+  for (const Moments& body : {solid_, bound_.states.front()}) {
+    EXPECT_GE(proof->functionals.col(0).head<10>().dot(body) + proof->functionals(10, 0),
+              0.9 * proof->margin);
   }
 }
 
@@ -143,13 +162,101 @@ TEST(Certificate, IsOnlyFoundForHalfSpacesThatHoldAllCentres) {
     lowest = std::min(lowest, (0.5 - 0.32 * (0.81 - h * h)) / (1 - 0.64 * (0.9 - h)));
   }
   for (const double beyond : {2e-3, -2e-3}) {
-    const auto proof = certificate(-Vec3::UnitZ(), -lowest + beyond, solid, 0.0, surface, 0.1);
+    const auto proof = certificate(-Vec3::UnitZ(), -lowest + beyond, solid, {}, surface, 0.1);
     ASSERT_EQ(proof.has_value(), beyond > 0.0);
     if (!proof) continue;
     EXPECT_GT(proof->margin, 0.0);
-    EXPECT_EQ(proof->functional[3], 1.0);
-    EXPECT_EQ(proof->functional[0], -lowest + beyond);
+    EXPECT_EQ(proof->functionals(3, 0), 1.0);
+    EXPECT_EQ(proof->functionals(0, 0), -lowest + beyond);
   }
+}
+
+/// Stands on its middle column, with a low arm to one side and a high one to the other: what is
+/// poured into its cavity fills the low arm first.
+struct TwoArms {
+  TriangleMesh mesh =
+      smoothed(polycube({{0, 0, 0}, {0, 0, 1}, {0, 0, 2}, {-1, 0, 1}, {1, 0, 2}}, 5), 2);
+  PosedModel posed = makePosedModel(makeSolid(mesh), {});
+  TriangleTree surface{posed.vertices, posed.faces};
+  Moments solid = moments(posed.vertices, posed.faces);
+  AdmissibleCells cells = admissibleCells(surface, posed.wall);
+  LinearConditions conditions = makeStandGoal(posed.contact, {})->conditions().front();
+  Fillings ends{{}, {0.6}};
+  Fillings everyLevel = ends;
+
+  TwoArms() {
+    for (const double height : layerHeights(surface)) everyLevel.push_back({0.6, height});
+  }
+};
+
+/// The level that a cavity of the cells reaches in all states, straight from the cells.
+double reachedBy(const TwoArms& scene, const std::function<bool(const Vec3&)>& isHollow) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Filling& filling : scene.everyLevel) {
+    Moments body = scene.solid;
+    for (Eigen::Index c = 0; c < scene.cells.rows(); ++c) {
+      const Moments cell = scene.cells.row(c).transpose();
+      const Vec3 centre = cell.segment<3>(1) / cell[0];
+      if (!isHollow(centre)) continue;
+      body -= (centre.z() < filling.level ? 1.0 - filling.density : 1.0) * cell;
+    }
+    least = std::min(least, levelReached(scene.conditions, body));
+  }
+  return least;
+}
+
+TEST(LevelBound, CountsEveryLevelOfTheContents) {
+  const TwoArms scene;
+  const LevelBound ends = greatestLevel(scene.conditions, scene.solid, scene.ends, scene.cells);
+  const LevelBound every =
+      greatestLevel(scene.conditions, scene.solid, scene.everyLevel, scene.cells);
+  ASSERT_EQ(every.states.size(), scene.everyLevel.size());
+  // A tenth of a degree below what empty and full allow, and known to a fiftieth.
+  EXPECT_LT(every.level, ends.level - 0.1 / kDegrees);
+  EXPECT_GE(every.level, every.reached);
+  EXPECT_NEAR(every.level, every.reached, 0.02 / kDegrees);
+  // The best body is one: its own cavity, where hollowing is worth it, reaches no less than others.
+  const double own = reachedBy(scene, [&](const Vec3& x) { return every.worth.valueAt(x) > 0.0; });
+  EXPECT_NEAR(own, every.level, 0.1 / kDegrees);
+  EXPECT_LE(own, every.level);
+  const double ofEnds =
+      reachedBy(scene, [&](const Vec3& x) { return ends.worth.valueAt(x) > 0.0; });
+  EXPECT_LT(ofEnds, every.level);
+  Random random(9);
+  for (int trial = 0; trial < 30; ++trial) {
+    const Vec3 normal = random.vector().normalized();
+    const double offset = 0.3 * random();
+    const double reached =
+        reachedBy(scene, [&](const Vec3& x) { return normal.dot(x - Vec3(0, 0, 0.4)) > offset; });
+    EXPECT_LE(reached, every.level);
+  }
+}
+
+TEST(Certificate, OfEveryLevelExcludesWhatEmptyAndFullAllow) {
+  const TwoArms scene;
+  const LevelBound ends = greatestLevel(scene.conditions, scene.solid, scene.ends, scene.cells);
+  const LevelBound every =
+      greatestLevel(scene.conditions, scene.solid, scene.everyLevel, scene.cells);
+  const double wanted = 0.1 * every.level + 0.9 * ends.reached;
+  EXPECT_FALSE(certificate(scene.conditions, wanted, ends, scene.solid, scene.ends, scene.surface,
+                           scene.posed.wall));
+  const auto proof = certificate(scene.conditions, wanted, every, scene.solid, scene.everyLevel,
+                                 scene.surface, scene.posed.wall);
+  ASSERT_TRUE(proof);
+  EXPECT_TRUE(std::any_of(proof->fillings.begin(), proof->fillings.end(),
+                          [](const Filling& filling) { return filling.isPartial(); }));
+  EXPECT_LT((proof->rows.transpose() * proof->multipliers - proof->functionals).norm(), 1e-12);
+  // Positive for the best body in the states that count.
+  double sum = 0.0;
+  for (Eigen::Index s = 0; s < proof->functionals.cols(); ++s) {
+    const Filling& filling = proof->fillings[static_cast<std::size_t>(s)];
+    for (std::size_t i = 0; i < scene.everyLevel.size(); ++i) {
+      if (scene.everyLevel[i].density != filling.density) continue;
+      if (scene.everyLevel[i].level != filling.level) continue;
+      sum += proof->functionals.col(s).head<10>().dot(every.states[i]) + proof->functionals(10, s);
+    }
+  }
+  EXPECT_GE(sum, 0.9 * proof->margin);
 }
 
 TEST(Certificate, IsOnlyFoundForMassesBelowTheLeast) {
@@ -160,8 +267,8 @@ TEST(Certificate, IsOnlyFoundForMassesBelowTheLeast) {
   for (const double excess : {-0.005, 0.005}) {
     const auto goal = makeMassGoal(1.0, least + excess, {});
     const LinearConditions conditions = goal->conditions().front();
-    const LevelBound bound = greatestLevel(conditions, solid, 0.0, admissibleCells(surface, 0.1));
-    EXPECT_EQ(certificate(conditions, 0.0, bound, solid, 0.0, surface, 0.1).has_value(),
+    const LevelBound bound = greatestLevel(conditions, solid, {{}}, admissibleCells(surface, 0.1));
+    EXPECT_EQ(certificate(conditions, 0.0, bound, solid, {{}}, surface, 0.1).has_value(),
               excess < 0.0);
   }
 }

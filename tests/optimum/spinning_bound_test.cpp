@@ -112,13 +112,13 @@ TEST_P(EveryBlock, HasNoFillingBelowTheBound) {
       weights.inertia = c.inertiaWeight;
       const auto goal = goalFor(block, isCentred, weights);
       const OptimalBound best =
-          optimalBound(*goal, weights, block.solid, c.fillDensity, block.cells);
+          optimalBound(*goal, weights, block.solid, {{c.fillDensity}}, block.cells);
       if (best.violation > 1e-6) continue;
       ASSERT_TRUE(best.objectiveAtLeast);
       EXPECT_LE(*best.objectiveAtLeast, best.objective);
       // SLSQP finds the best body where the constraint that parts the bodies is idle.
       const OptimalBound relaxed =
-          optimalBound(*goal->relaxed(), weights, block.solid, c.fillDensity, block.cells);
+          optimalBound(*goal->relaxed(), weights, block.solid, {{c.fillDensity}}, block.cells);
       if (largestViolation(*goal, relaxed.massMoments) < 1e-6) {
         ++idle;
         EXPECT_GE(*best.objectiveAtLeast, 0.99 * best.objective) << size.transpose();
@@ -172,7 +172,7 @@ TEST(SpinningBound, OfABallIsThatOfTwoConesAlongTheAxis) {
   const Moments solid = moments(ball.vertices, ball.faces);
   const AdmissibleCells cells = admissibleCells({ball.vertices, ball.faces}, wall);
   const auto goal = makeYoYoGoal(solid, {}, {0, 0, 1.3});
-  const OptimalBound best = optimalBound(*goal, {}, solid, 0.0, cells);
+  const OptimalBound best = optimalBound(*goal, {}, solid, {{}}, cells);
   ASSERT_TRUE(best.objectiveAtLeast);
   EXPECT_NEAR(*best.objectiveAtLeast, expected, 5e-3 * (2.0 - expected));
   EXPECT_NEAR(best.objective, *best.objectiveAtLeast, 1e-3 * best.objective);

@@ -3,6 +3,7 @@
 
 #include "core/goals/published_stand.h"
 #include "core/goals/spin.h"
+#include "core/goals/stand.h"
 #include "judge/checks.h"
 #include "shapes.h"
 
@@ -51,7 +52,7 @@ struct Scene {
         mesh.vertices, mesh.faces, mass, basis, Interpolation::identity(mass.size()), {}, L});
     result.field.directions = directions;
     result.inner = inner;
-    result.fillDensity = fill;
+    result.fillings = {{fill}};
     if (moving) result.outer = outer;
     result.innerFaces = mesh.faces;
     result.solidMoments = moments(mesh.vertices, mesh.faces);
@@ -130,6 +131,43 @@ TEST_P(ProblemGradient, MatchesCentralDifferencesInEveryCoefficient) {
   }
 }
 
+TEST(OffsetProblem, OfSeveralFillingsHasTheGradientOfItsValue) {
+  const auto goal =
+      makeStandGoal({{{-0.1, -0.1}, {0.02, -0.1}, {0.02, 0.1}, {-0.1, 0.1}}, {}}, allWeights());
+  for (const bool moving : {false, true}) {
+    OffsetModel model = scene().model(moving, 0.0);
+    // Up to a quarter and three quarters of the lump's height.
+    model.fillings = {{}, {0.8}, {0.8, 0.25}, {0.8, 0.6}};
+    const Vector x = 0.1 * Random(47).vector(moving ? 2 * kBasis : kBasis);
+    const Vector gradient = evaluate(model, *goal, allWeights(), x).objectiveGradient;
+    const double h = 1e-5; // as above
+    for (Eigen::Index j = 0; j < x.size(); ++j) {
+      Vector step = Vector::Zero(x.size());
+      step[j] = h;
+      const double change = evaluate(model, *goal, allWeights(), x + step).objective -
+                            evaluate(model, *goal, allWeights(), x - step).objective;
+      EXPECT_NEAR(gradient[j], change / (2 * h), 1e-6 * std::max(1.0, gradient.norm()))
+          << "coefficient " << j;
+    }
+  }
+}
+
+TEST(OffsetProblem, OfSeveralFillingsHasTheObjectiveThatTheReportShows) {
+  const Scene& s = scene();
+  const auto goal =
+      makeStandGoal({{{-0.1, -0.1}, {0.1, -0.1}, {0.1, 0.1}, {-0.1, 0.1}}, {}}, allWeights());
+  OffsetModel model = s.model(false, 0.0);
+  model.fillings = {{}, {0.8}, {0.8, 0.4}};
+  const Vector x = 0.1 * Random(48).vector(kBasis);
+  const OffsetSurfaces surfaces = offsetSurfaces(model, x);
+  const auto states =
+      filledMoments(model.solidMoments, surfaces.inner, s.mesh.faces, model.fillings);
+  const double share = states[0][0] / model.solidMoments[0];
+  EXPECT_NEAR(momentObjective(*goal, allWeights(), states, share) +
+                  offsetObjective(*model.surface, allWeights(), surfaces.innerOffsets, {}),
+              evaluate(model, *goal, allWeights(), x).objective, 1e-12);
+}
+
 TEST_P(ProblemGradient, BelongsToTheSumOfTheSixTermsByTheirFormulas) {
   const Variant v = GetParam();
   const Scene& s = scene();
@@ -177,9 +215,9 @@ TEST_P(ProblemGradient, IsOfTheObjectiveThatTheReportShows) {
   const Moments outer = moments(v.moving ? surfaces.outer : s.mesh.vertices, s.mesh.faces);
   const Moments m = shellMoments(outer, inner, 1.0, v.fill);
   const double share = (outer[0] - inner[0]) / model.solidMoments[0];
-  EXPECT_NEAR(momentObjective(*goal, weights, m, share) + offsetObjective(*model.surface, weights,
-                                                                          surfaces.innerOffsets,
-                                                                          surfaces.outerOffsets),
+  EXPECT_NEAR(momentObjective(*goal, weights, {m}, share) + offsetObjective(*model.surface, weights,
+                                                                            surfaces.innerOffsets,
+                                                                            surfaces.outerOffsets),
               evaluate(model, *goal, weights, x).objective, 1e-12);
 }
 

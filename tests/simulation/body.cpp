@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 namespace simulation {
 namespace {
@@ -14,16 +16,36 @@ struct Integrals {
 
   void add(const Mesh& mesh, const Vector3d& apex, double density) {
     for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
-      std::array<Vector3d, 3> corner;
+      addTetrahedron(
+          {cornerOf(mesh, f, 0) - apex, cornerOf(mesh, f, 1) - apex, cornerOf(mesh, f, 2) - apex},
+          density);
+    }
+  }
+
+  /// What of the inside lies below the level, the apex's height, where a tetrahedron's fourth
+  /// corner leaves nothing to be added for the level itself.
+  void addBelow(const Mesh& mesh, const Vector3d& apex, double density) {
+    for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
+      std::vector<Vector3d> below;
       for (int k = 0; k < 3; ++k) {
-        corner[static_cast<std::size_t>(k)] =
-            mesh.vertices.row(mesh.faces(f, k)).transpose() - apex;
+        const Vector3d p = cornerOf(mesh, f, k) - apex;
+        const Vector3d q = cornerOf(mesh, f, (k + 1) % 3) - apex;
+        if (p.z() <= 0.0) below.push_back(p);
+        if ((p.z() <= 0.0) != (q.z() <= 0.0)) {
+          below.emplace_back((q.z() * p - p.z() * q) / (q.z() - p.z()));
+        }
       }
-      addTetrahedron(corner, density);
+      for (std::size_t i = 2; i < below.size(); ++i) {
+        addTetrahedron({below[0], below[i - 1], below[i]}, density);
+      }
     }
   }
 
 private:
+  static Vector3d cornerOf(const Mesh& mesh, Eigen::Index f, int k) {
+    return mesh.vertices.row(mesh.faces(f, k)).transpose();
+  }
+
   /// With the fourth corner at the origin.
   void addTetrahedron(const std::array<Vector3d, 3>& corner, double density) {
     const double quarter = density * corner[0].dot(corner[1].cross(corner[2])) / 24.0;
@@ -43,11 +65,14 @@ private:
 } // namespace
 
 MassProperties massProperties(const Mesh& outer, const Mesh& inner, double density,
-                              double fillDensity) {
-  const Vector3d apex = outer.vertices.colwise().mean().transpose();
+                              double fillDensity, double level) {
+  Vector3d apex = outer.vertices.colwise().mean().transpose();
+  const bool isPartial = level < std::numeric_limits<double>::infinity();
+  if (isPartial) apex.z() = level;
   Integrals sum;
   sum.add(outer, apex, density);
-  sum.add(inner, apex, density - fillDensity);
+  sum.add(inner, apex, isPartial ? density : density - fillDensity);
+  if (isPartial) sum.addBelow(inner, apex, -fillDensity);
   MassProperties result;
   result.mass = sum.mass;
   result.centre = apex + sum.first / sum.mass;

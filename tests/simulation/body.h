@@ -3,6 +3,8 @@
 
 #include "simulation/mesh.h"
 
+#include <limits>
+
 namespace simulation {
 
 using Eigen::Matrix3d;
@@ -19,8 +21,10 @@ struct MassProperties {
 /// Of the material between `outer` and `inner`, whose normals point into the cavity, and of what
 /// fills the cavity. Every triangle makes a signed tetrahedron with a point nearby, integrated by
 /// the four-point rule that is exact for quadratic polynomials [HMS56].
+/// \param level contents reach this height
 MassProperties massProperties(const Mesh& outer, const Mesh& inner, double density,
-                              double fillDensity);
+                              double fillDensity,
+                              double level = std::numeric_limits<double>::infinity());
 
 /// In natural units: lengths in diagonals of the bounding box, mass 1, up = +z, gravity 1. A unit
 /// of time is then √(diagonal/g).
