@@ -347,7 +347,8 @@ Search search(const Preparation& model, const Foundation& foundation, const Opti
 
 Result deliver(const Preparation& model, const Foundation& foundation, const Search& found,
                const Options& options, ProgressBar& bar) {
-  bar.show(Schedule::kEnd, "Report");
+  constexpr int kFound = 96;
+  bar.show(kFound, "Report");
   Result result;
   Delivery delivery =
       deliver(model.solid, model.posed, found.task, found.cavity, foundation.coarse.vertexOf,

@@ -58,8 +58,8 @@ struct CavityResult {
   /// Delivered positions in the working frame, of an offset surface a row a vertex of what moves,
   /// of an open surface's cavity twice as many.
   Points inner;
-  Points outer;         ///< of the outer surface, moved or not
-  CavitySurface cavity; ///< over `inner`; no faces: nothing can be hollowed
+  Points outer;                      ///< of the outer surface, moved or not
+  CavitySurface cavity;              ///< over `inner`; no faces: nothing can be hollowed
   Vector innerOffsets, outerOffsets; ///< of an offset surface
   Inspection inspection;
   SearchEffort effort;

@@ -11,6 +11,7 @@ TOP = SAMPLES / "tilted_ellipsoid_top.ply"
 SPIN = script_of("tilted_ellipsoid_top")
 DUCK = SAMPLES / "bath_duck.ply"
 STAND_GOAL, SPIN_GOAL, YO_YO_GOAL, HANG_GOAL = 0, 1, 2, 6
+AUTOMATIC, OFFSET_SURFACE, BEST_POSSIBLE = 0, 1, 2
 
 
 def cotangent_energy(vertices, faces, values):
@@ -54,9 +55,25 @@ class ParametersTest(HostTest):
         self.assertNotIn("tip_angle_after", spin)
         self.assertLess(stand["center_of_mass_after"][2], spin["center_of_mass_after"][2])
 
+    def test_cavity_shape(self):
+        gaps = {}
+        for shape, words in ((OFFSET_SURFACE, "offset surface: as asked for"),
+                             (BEST_POSSIBLE, "best possible: as asked for"),
+                             (AUTOMATIC, "best possible: the offset surface leaves")):
+            report, (vertices, faces) = self.top(cavity_shape=shape)
+            self.assertTrue(report["cavity_shape"].startswith(words), report["cavity_shape"])
+            self.assertTrue(report["solved"], report["message"])
+            self.assertEqual(len(vertices) == len(self.outer[0]), shape == OFFSET_SURFACE)
+            wall = measure.surface_distance(self.outer, (vertices, faces))
+            self.assertGreaterEqual(wall, report["min_wall"] - 1e-6)
+            gaps[shape] = report["gap_to_limit"]
+        self.assertGreater(gaps[OFFSET_SURFACE], 0.03)
+        self.assertLess(gaps[BEST_POSSIBLE], 0.015)
+        self.assertLess(gaps[AUTOMATIC], 0.015)
+
     def test_basis_k_more_functions_shape_finer_detail(self):
-        _, (few, _) = self.top(basis_k=6)
-        _, (many, _) = self.top(basis_k=60)
+        _, (few, _) = self.top(cavity_shape=OFFSET_SURFACE, basis_k=6)
+        _, (many, _) = self.top(cavity_shape=OFFSET_SURFACE, basis_k=60)
 
         def roughness(inner):
             # A few vertices may be solid: not every one of the model has its own in the cavity.
@@ -89,8 +106,8 @@ class ParametersTest(HostTest):
         self.assertLess(thin["min_wall"], 3)
 
     def test_inner_upper_bound_limits_the_depth(self):
-        _, (near, _) = self.top(inner_upper_bound=0.4)
-        _, (far, _) = self.top(inner_upper_bound=0.9)
+        _, (near, _) = self.top(cavity_shape=OFFSET_SURFACE, inner_upper_bound=0.4)
+        _, (far, _) = self.top(cavity_shape=OFFSET_SURFACE, inner_upper_bound=0.9)
 
         def depth(inner):
             return max(np.linalg.norm(self.outer[0] - y, axis=1).min() for y in inner)
@@ -135,8 +152,8 @@ class ParametersTest(HostTest):
         self.assertLess(ratio(heavy), ratio(without))
 
     def test_opt_weight_4_smooths_the_offsets(self):
-        _, (free, _) = self.top(opt_weight_4=0)
-        _, (smooth, _) = self.top(opt_weight_4=0.03)
+        _, (free, _) = self.top(cavity_shape=OFFSET_SURFACE, opt_weight_4=0)
+        _, (smooth, _) = self.top(cavity_shape=OFFSET_SURFACE, opt_weight_4=0.03)
 
         def energy(inner):
             return cotangent_energy(*self.outer, np.linalg.norm(inner - self.outer[0], axis=1))
