@@ -21,7 +21,7 @@ def parameters(diagonal):
 class WindowTest(HostTest):
     """MeshLab on a screen of its own."""
 
-    SCREEN = (1400, 1100)
+    SCREEN = (1400, 1200)
     WINDOW = (1300, 950)
 
     @classmethod
