@@ -32,8 +32,8 @@ class BorderSearch {
 public:
   static constexpr int kTopLevel = 4;
 
-  BorderSearch(const Region& region, const Vec3& origin, double edge, std::vector<Cube>& found)
-      : region_(region), probe_(region), origin_(origin), edge_(edge), found_(found) {}
+  BorderSearch(const Region& region, Vec3 origin, double edge, std::vector<Cube>& found)
+      : region_(region), probe_(region), origin_(std::move(origin)), edge_(edge), found_(found) {}
 
   void visit(const Place& place, int level, bool isDeep) {
     const double size = edge_ * (1 << level);
@@ -191,13 +191,17 @@ void tame(std::vector<int> wild, BorderLattice& lattice) {
     const int cube = wild.back();
     wild.pop_back();
     if (cutOnce()[lattice.cornersInside(cube)]) continue;
-    Corner* least = nullptr;
-    for (const int c : lattice.cubes[at(cube)]) {
-      Corner& corner = lattice.corners[at(c)];
-      if (corner.isInside && (least == nullptr || corner.value() < least->value())) least = &corner;
-    }
-    least->isInside = false;
-    const Place place = least->place;
+    const auto valueInside = [&](int c) {
+      const Corner& corner = lattice.corners[at(c)];
+      return corner.isInside ? corner.value() : std::numeric_limits<double>::infinity();
+    };
+    const auto& corners = lattice.cubes[at(cube)];
+    Corner& least =
+        lattice.corners[at(*std::min_element(corners.begin(), corners.end(), [&](int c, int d) {
+          return valueInside(c) < valueInside(d);
+        }))];
+    least.isInside = false;
+    const Place place = least.place;
     for (int i = 0; i < 8; ++i) {
       const int known = lattice.cubeAt.find(place - cornerStep(i));
       wild.push_back(known >= 0 ? known : addCube(place - cornerStep(i), lattice));

@@ -87,9 +87,9 @@ std::vector<Vec3> troubles(const TriangleTree& surface, double wall, Contour& co
   TriangleMesh& mesh = contour.mesh;
   std::vector<Vec3> points;
   for (const int v : keepWall(surface, wall, mesh))
-    points.push_back(mesh.vertices.row(v).transpose());
+    points.emplace_back(mesh.vertices.row(v).transpose());
   for (const int f : selfIntersectingFaces(mesh.vertices, mesh.faces)) {
-    for (const int v : mesh.faces.row(f)) points.push_back(mesh.vertices.row(v).transpose());
+    for (const int v : mesh.faces.row(f)) points.emplace_back(mesh.vertices.row(v).transpose());
   }
   return points;
 }

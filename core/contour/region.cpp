@@ -60,7 +60,7 @@ Sample InsetProbe::at(const Vec3& x, double horizon) {
   last_ = {x, distance, isInside(x)};
   const double sign = last_.isInside ? 1.0 : -1.0;
   const double depth = sign * distance;
-  const Sample inset{depth - region_.wall, sign * (x - nearest_.point) / std::max(distance, kTiny)};
+  Sample inset{depth - region_.wall, sign * (x - nearest_.point) / std::max(distance, kTiny)};
   if (deep == nullptr || depth >= deep->depth || inset.value <= -horizon) return inset;
   const double farthest = deep->reach + horizon;
   nearestDeep_ = deep->border.nearest(x, farthest * farthest, nearestDeep_.face);
