@@ -1,7 +1,7 @@
 // Every sample with its goal: what the solid does, what the hollowed body does, and how far that is
 // from the best that any cavity with this wall could do. benchmarks/results.md keeps the output.
 //
-// usage: gaps [wall in per cent of the diagonal]   2 when it is not given
+// usage: gaps [wall in per cent of the diagonal [entry of cavity_shape]]   2 and 0 where not given
 #include "core/goals/registry.h"
 #include "core/pipeline.h"
 #include "samples.h"

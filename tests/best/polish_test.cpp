@@ -1,0 +1,73 @@
+// The cut moves until the triangles keep the goal's constraints.
+#include "core/best/polish.h"
+
+#include "core/contour/cavity_contour.h"
+#include "core/query/self_intersection.h"
+#include "shapes.h"
+
+#include <gtest/gtest.h>
+
+namespace massprops::testing {
+namespace {
+
+/// Mass and first moments that are wanted.
+class WantedGoal final : public Goal {
+public:
+  explicit WantedGoal(const Moments& wanted) : wanted_(wanted) {}
+
+  GoalValue objective(const Moments& /*massMoments*/) const override { return {}; }
+  GoalConstraints equalities(const Moments& massMoments) const override {
+    GoalConstraints h{Vector(4), MomentGradients::Zero(4, 10)};
+    h.values = (massMoments - wanted_).head<4>();
+    h.gradients.leftCols<4>().setIdentity();
+    return h;
+  }
+  GoalConstraints inequalities(const Moments& /*massMoments*/) const override {
+    return {Vector(0), MomentGradients(0, 10)};
+  }
+  bool usesInertia() const override { return false; }
+
+private:
+  Moments wanted_;
+};
+
+TEST(Polish, MovesTheCutUntilTheConstraintsHold) {
+  const TriangleMesh outer = sphere(24);
+  const TriangleTree tree(outer.vertices, outer.faces);
+  const double wall = 0.08;
+  Moments quadric = Moments::Zero();
+  const Vec3 normal(0.6, 0.0, 0.8);
+  quadric[0] = -0.1;
+  quadric.segment<3>(1) = normal;
+  const auto found = cavityContour(tree, wall, quadric, 15000);
+  ASSERT_TRUE(found);
+  const Moments solid = moments(outer.vertices, outer.faces);
+  const auto bodyOf = [&](const TriangleMesh& cavity) {
+    return Moments(solid - moments(cavity.vertices, cavity.faces));
+  };
+  // A little more hollow at the cut, which is 0.1 off the middle, and leaning a little.
+  Moments wanted = bodyOf(found->contour.mesh);
+  wanted[0] -= 2e-3;
+  wanted.segment<3>(1) -= 2e-3 * 0.1 * normal;
+  wanted[2] += 3e-4;
+  const WantedGoal goal(wanted);
+  CavityTask task{tree, goal, {}};
+  task.model.solidMoments = solid;
+  task.model.fillings = {{}};
+  task.wall = wall;
+  for (const Moving moving : {Moving::CutAlone, Moving::CutAndCreases}) {
+    Contour contour = found->contour;
+    EXPECT_GT(polish(task, quadric, moving, 0.3 * found->edge, contour), 0);
+    const Vector left = goal.equalities(bodyOf(contour.mesh)).values;
+    // Creases go as far as triangles stay sound.
+    EXPECT_LT(left.cwiseAbs().maxCoeff(), moving == Moving::CutAlone ? 1e-5 : 1e-4);
+    EXPECT_TRUE(selfIntersectingFaces(contour.mesh.vertices, contour.mesh.faces).empty());
+    const double farthest =
+        (contour.mesh.vertices - found->contour.mesh.vertices).rowwise().norm().maxCoeff();
+    EXPECT_GT(farthest, 0.0);
+    EXPECT_LT(farthest, found->edge);
+  }
+}
+
+} // namespace
+} // namespace massprops::testing
