@@ -5,6 +5,7 @@
 #include "core/best/polish.h"
 #include "core/contour/cavity_contour.h"
 #include "core/contour/wall_keeping.h"
+#include "core/optimum/admissible_cells.h"
 #include "core/reduced/hollow_body.h"
 
 #include <algorithm>
@@ -108,7 +109,10 @@ CavityResult bestPossibleCavity(const CavityTask& task) {
   result.shape = CavityShape::BestPossible;
   if (result.status == CavityStatus::Found) {
     if (!result.inspection.isClean()) {
+      // There is room, but none of the surfaces passed.
       result = {};
+      result.status = CavityStatus::NoGain;
+      result.stopReason = "the best possible cavity cannot be resolved";
     } else if (!servesBetter(task, hollowBody(task, result), inputBody(task))) {
       result.status = CavityStatus::NoGain;
     }
@@ -120,12 +124,17 @@ CavityResult bestPossibleCavity(const CavityTask& task) {
 double largestWallForBestPossible(const CavityTask& task,
                                   const std::function<void(double)>& progress) {
   constexpr int kHalvings = 10;
+  // Without cells there is no limit, and no quadric to go by.
+  const auto hasRoom = [&](double wall) {
+    return admissibleCells(task.surface, wall).rows() > 0 && leavesRoom(task.surface, wall);
+  };
   double wall = task.wall;
   for (int i = 1; i <= kHalvings; ++i) {
     wall *= 0.5;
-    const bool hasRoom = leavesRoom(task.surface, wall);
+    // Near its limit there may be room at one wall and none at a slightly thinner one.
+    const bool works = hasRoom(wall) && hasRoom(0.99 * wall);
     if (progress) progress(static_cast<double>(i) / kHalvings);
-    if (hasRoom) return wall;
+    if (works) return wall;
   }
   return 0.0;
 }
