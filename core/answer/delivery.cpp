@@ -31,20 +31,10 @@ bool inputServes(const Solid& solid, const CavityTask& task) {
   return !task.model.outer && repairs.replacedCavities == 0 && repairs.flippedComponents == 0;
 }
 
-} // namespace
-
-Delivery deliver(const Solid& solid, const PosedModel& posed, const CavityTask& task,
-                 const CavityResult& cavity, const std::vector<int>& vertexOf,
-                 const std::function<Points(const Points&)>& representable) {
-  Delivery result;
-  if (cavity.status != CavityStatus::Found) return result;
-  if (cavity.shape == CavityShape::BestPossible) {
-    result.inner = {representable(toModel(posed.frame, cavity.inner)), cavity.cavity.faces};
-    flip(result.inner.faces);
-    result.innerWall = wallOf(task, cavity) * posed.frame.length;
-    if (!inputServes(solid, task)) result.outer = submesh(solid.vertices(), solid.faces()).mesh;
-    return result;
-  }
+void deliverOffsetSurface(const Solid& solid, const PosedModel& posed, const CavityTask& task,
+                          const CavityResult& cavity, const std::vector<int>& vertexOf,
+                          const std::function<Points(const Points&)>& representable,
+                          Delivery& result) {
   const std::vector<int> places = placesInSolid(posed, vertexOf);
   Points positions = representable(toModel(posed.frame, placed(cavity.inner, places)));
   Faces faces = cavity.cavity.faces;
@@ -56,8 +46,23 @@ Delivery deliver(const Solid& solid, const PosedModel& posed, const CavityTask& 
   }
   Submesh inner = submesh(positions, placed(faces, places));
   result.inner = std::move(inner.mesh);
-  flip(result.inner.faces);
   result.innerWall = placed(wallOf(task, cavity), places)(inner.vertexOf) * posed.frame.length;
+}
+
+} // namespace
+
+Delivery deliver(const Solid& solid, const PosedModel& posed, const CavityTask& task,
+                 const CavityResult& cavity, const std::vector<int>& vertexOf,
+                 const std::function<Points(const Points&)>& representable) {
+  Delivery result;
+  if (cavity.status != CavityStatus::Found) return result;
+  if (cavity.shape == CavityShape::Offset) {
+    deliverOffsetSurface(solid, posed, task, cavity, vertexOf, representable, result);
+  } else {
+    result.inner = {representable(toModel(posed.frame, cavity.inner)), cavity.cavity.faces};
+    result.innerWall = wallOf(task, cavity) * posed.frame.length;
+  }
+  flip(result.inner.faces);
   if (inputServes(solid, task)) return result;
   const Points outer =
       task.model.outer ? representable(toModel(posed.frame, placed(cavity.outer, posed.vertexOf)))

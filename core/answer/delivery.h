@@ -11,7 +11,7 @@
 
 namespace massprops {
 
-/// In model coordinates, in the order of the model's vertices.
+/// In model coordinates; an offset surface in the order of the model's vertices.
 struct Delivery {
   /// Without vertices and faces when there is no cavity; normals point into the cavity.
   TriangleMesh inner;
@@ -19,7 +19,7 @@ struct Delivery {
   std::optional<TriangleMesh> outer; ///< when it is not the input's
 };
 
-/// `vertexOf`: for every vertex of what moved the vertex of the posed model that it is;
+/// `vertexOf`: of an offset surface, for every vertex of what moved that of the posed model;
 /// `representable`: rounds to what the caller can store. Nothing where the search found nothing.
 Delivery deliver(const Solid& solid, const PosedModel& posed, const CavityTask& task,
                  const CavityResult& cavity, const std::vector<int>& vertexOf,

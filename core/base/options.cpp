@@ -83,6 +83,10 @@ void requireSensible(const Options& options, Eigen::Index vertexCount, double di
 }
 
 void requireSensibleForShell(const Options& options) {
+  require(
+      options.cavityShape != CavityShape::BestPossible,
+      "The best possible cavity needs a closed surface: set cavity_shape to Automatic or Offset "
+      "surface, or close it with Remeshing > Close Holes.");
   if (options.outerUpperBound == 0.0) return;
   throw InvalidInput("An open surface stays where it is: set outer_lower_bound and "
                      "outer_upper_bound to 0, or close it with Remeshing > Close Holes.");

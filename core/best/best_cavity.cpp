@@ -7,8 +7,8 @@
 #include "core/contour/wall_keeping.h"
 #include "core/optimum/admissible_cells.h"
 #include "core/reduced/hollow_body.h"
+#include "core/reduced/search_strategy.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace massprops {
@@ -46,7 +46,8 @@ Moments quadricOf(const LayeredQuadric& worth) {
   return sum / static_cast<double>(worth.quadrics.size());
 }
 
-/// The contour as the goal would have it; as it was where that spoils it.
+/// The contour as the goal would have it, or as it was: what serves best, for triangles that give
+/// way to the wall cost more in one than in another.
 CavityResult polished(const CavityTask& task, const Moments& quadric, double wall,
                       const CavityContour& found) {
   constexpr double kFarthest = 0.3; // of a cube's edge
@@ -123,20 +124,11 @@ CavityResult bestPossibleCavity(const CavityTask& task) {
 
 double largestWallForBestPossible(const CavityTask& task,
                                   const std::function<void(double)>& progress) {
-  constexpr int kHalvings = 10;
   // Without cells there is no limit, and no quadric to go by.
   const auto hasRoom = [&](double wall) {
     return admissibleCells(task.surface, wall).rows() > 0 && leavesRoom(task.surface, wall);
   };
-  double wall = task.wall;
-  for (int i = 1; i <= kHalvings; ++i) {
-    wall *= 0.5;
-    // Near its limit there may be room at one wall and none at a slightly thinner one.
-    const bool works = hasRoom(wall) && hasRoom(0.99 * wall);
-    if (progress) progress(static_cast<double>(i) / kHalvings);
-    if (works) return wall;
-  }
-  return 0.0;
+  return greatestWall(task.wall, hasRoom, progress);
 }
 
 } // namespace massprops

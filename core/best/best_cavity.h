@@ -13,8 +13,7 @@ namespace massprops {
 /// surface rests. \pre there is a bound, the surface is closed
 CavityResult bestPossibleCavity(const CavityTask& task);
 
-/// About the greatest wall below the wanted one that leaves room for a best possible cavity,
-/// working length; 0 when none was found down to a thousandth. `progress` as for `searchCavity`.
+/// As `largestWall`, for a best possible cavity.
 double largestWallForBestPossible(const CavityTask& task,
                                   const std::function<void(double)>& progress);
 

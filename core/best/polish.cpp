@@ -7,8 +7,6 @@
 #include "core/goals/objective.h"
 #include "core/optimum/layered_quadric.h"
 
-#include <cmath>
-#include <utility>
 #include <vector>
 
 namespace massprops {
@@ -73,7 +71,8 @@ int polish(const CavityTask& task, const Moments& quadric, Moving moving, double
   const auto displaced = [&](const Vector& q) {
     return Points(start + (functions * q).asDiagonal() * directions);
   };
-  const double solid = task.model.solidMoments[0];
+  const BodyState outer{task.model.solidMoments, MomentJacobian::Zero(10, functions.cols())};
+  const double solid = outer.mass[0];
   const auto withJacobian = [&](const MomentsWithRates& both) {
     BodyState state{both.moments, MomentJacobian::Zero(10, functions.cols())};
     state.jacobian.topRows(both.rates.cols()) = both.rates.transpose() * functions;
@@ -83,19 +82,10 @@ int polish(const CavityTask& task, const Moments& quadric, Moving moving, double
     const Points vertices = displaced(q);
     const BodyState cavity =
         withJacobian(momentsWithRates(vertices, faces, directions, usesInertia));
-    std::vector<BodyState> states;
-    for (const Filling& filling : task.model.fillings) {
-      const double density = filling.isPartial() ? 0.0 : filling.density;
-      BodyState state{task.model.solidMoments - (1.0 - density) * cavity.mass,
-                      (density - 1.0) * cavity.jacobian};
-      if (filling.isPartial()) {
-        const BodyState contents =
-            withJacobian(momentsBelowWithRates(vertices, faces, directions, filling.level));
-        state.mass += filling.density * contents.mass;
-        state.jacobian += filling.density * contents.jacobian;
-      }
-      states.push_back(std::move(state));
-    }
+    const std::vector<BodyState> states =
+        bodyStates(task.model.fillings, outer, cavity, [&](double level) {
+          return withJacobian(momentsBelowWithRates(vertices, faces, directions, level));
+        });
     return evaluateBody(task.goal, task.weights, states, 1.0 - cavity.mass[0] / solid,
                         -cavity.jacobian.row(0).transpose() / solid);
   };

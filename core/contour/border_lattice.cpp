@@ -10,14 +10,6 @@
 namespace massprops {
 namespace {
 
-constexpr std::uint64_t kFree = ~std::uint64_t{0};
-
-std::uint64_t keyOf(const Place& place) {
-  constexpr int kShift = 1 << 19; // places may be negative
-  const auto part = [](int i) { return static_cast<std::uint64_t>(i + kShift); };
-  return part(place.x()) << 42 | part(place.y()) << 21 | part(place.z());
-}
-
 Place cornerStep(int i) {
   return {i & 1, i >> 1 & 1, i >> 2};
 }
@@ -114,17 +106,23 @@ int addCube(const Place& place, BorderLattice& lattice) {
   for (int i = 0; i < 8; ++i) {
     const Place cornerPlace = place + cornerStep(i);
     const int fresh = static_cast<int>(lattice.corners.size());
-    corners[at(i)] = lattice.cornerAt.findOrAdd(cornerPlace, fresh);
+    corners[at(i)] = lattice.cornerAt.emplace(cornerPlace, fresh).first->second;
     if (corners[at(i)] == fresh) lattice.corners.push_back({cornerPlace, true, false, {}, {}, {}});
   }
   lattice.cubes.push_back(corners);
-  lattice.cubeAt.findOrAdd(place, number);
+  lattice.cubeAt.emplace(place, number);
   return number;
+}
+
+/// The number of a cube, which is added if it is not there.
+int cubeAt(const Place& place, BorderLattice& lattice) {
+  const auto known = lattice.cubeAt.find(place);
+  return known != lattice.cubeAt.end() ? known->second : addCube(place, lattice);
 }
 
 /// Two surfaces at an acute angle are kept apart: their triangles would cross each other where the
 /// region between them ends. The more acute, the wider apart.
-std::optional<Sample> bluntAt(const Corner& corner, double edge) {
+std::optional<Sample> chamferAt(const Corner& corner, double edge) {
   constexpr double kBegins = -0.5; // cosine between the slopes
   constexpr double kWhole = -0.9;
   constexpr double kApart = 0.4; // edges
@@ -144,7 +142,7 @@ void sampleCorner(const Region& region, InsetProbe& probe, bool isNearWall, int 
   const Vec3 x = lattice.positionOf(c);
   if (isNearWall) corner.inset = probe.at(x, 2.0 * lattice.edge);
   if (region.quadric) corner.cut = cutAt(region, x);
-  corner.blunt = bluntAt(corner, lattice.edge);
+  corner.chamfer = chamferAt(corner, lattice.edge);
   corner.isInside = corner.value() > kLeastValue * lattice.edge;
 }
 
@@ -173,7 +171,7 @@ void addMissing(const Region& region, BorderLattice& lattice) {
         const unsigned side = step < 0 ? kLowSide[at(axis)] : ~kLowSide[at(axis)] & 255U;
         if ((inside & side) == 0 || (inside & side) == side) continue;
         const Place other = place + step * Place::Unit(axis);
-        if (lattice.cubeAt.find(other) >= 0) continue;
+        if (lattice.cubeAt.count(other) > 0) continue;
         const auto known = static_cast<int>(lattice.corners.size());
         addCube(other, lattice);
         for (int c = known; c < static_cast<int>(lattice.corners.size()); ++c) {
@@ -203,55 +201,24 @@ void tame(std::vector<int> wild, BorderLattice& lattice) {
     least.isInside = false;
     const Place place = least.place;
     for (int i = 0; i < 8; ++i) {
-      const int known = lattice.cubeAt.find(place - cornerStep(i));
-      wild.push_back(known >= 0 ? known : addCube(place - cornerStep(i), lattice));
+      wild.push_back(cubeAt(place - cornerStep(i), lattice));
     }
   }
 }
 
 } // namespace
 
-PlaceTable::PlaceTable(std::size_t expected) {
-  std::size_t slots = 16;
-  while (slots < 4 * expected) slots *= 2;
-  entries_.assign(slots, {kFree, -1});
-}
-
-std::size_t PlaceTable::slotOf(std::uint64_t key) const {
-  std::uint64_t hash = key;
+std::size_t PlaceHash::operator()(const Place& place) const {
+  const auto part = [](int i) { return static_cast<std::size_t>(static_cast<unsigned>(i)); };
+  std::size_t hash = part(place.x()) << 42 ^ part(place.y()) << 21 ^ part(place.z());
   hash ^= hash >> 33;
-  hash *= 0xff51afd7ed558ccdULL; // the finalizer of MurmurHash3
-  hash ^= hash >> 33;
-  std::size_t slot = hash & (entries_.size() - 1);
-  while (entries_[slot].key != key && entries_[slot].key != kFree) {
-    slot = (slot + 1) & (entries_.size() - 1);
-  }
-  return slot;
-}
-
-int PlaceTable::find(const Place& place) const {
-  return entries_[slotOf(keyOf(place))].number;
-}
-
-int PlaceTable::findOrAdd(const Place& place, int fresh) {
-  const std::uint64_t key = keyOf(place);
-  Entry& entry = entries_[slotOf(key)];
-  if (entry.key == key) return entry.number;
-  entry = {key, fresh};
-  if (2 * ++size_ > entries_.size()) {
-    const std::vector<Entry> full = std::exchange(entries_, {});
-    entries_.assign(2 * full.size(), {kFree, -1});
-    for (const Entry& e : full) {
-      if (e.key != kFree) entries_[slotOf(e.key)] = e;
-    }
-  }
-  return fresh;
+  return hash * 0xff51afd7ed558ccdULL; // of MurmurHash3's finalizer
 }
 
 double Corner::value() const {
   constexpr double kFar = std::numeric_limits<double>::max();
   return std::min(
-      {inset ? inset->value : kFar, cut ? cut->value : kFar, blunt ? blunt->value : kFar});
+      {inset ? inset->value : kFar, cut ? cut->value : kFar, chamfer ? chamfer->value : kFar});
 }
 
 unsigned BorderLattice::cornersInside(int cube) const {
@@ -269,7 +236,8 @@ BorderLattice borderLattice(const Region& region, double edge) {
   lattice.edge = edge;
   const Vec3 high = region.surface.vertices().colwise().maxCoeff().transpose();
   const std::vector<Cube> cubes = borderCubes(region, lattice.origin, high - lattice.origin, edge);
-  lattice.cubeAt = lattice.cornerAt = PlaceTable(cubes.size());
+  lattice.cubeAt.reserve(cubes.size());
+  lattice.cornerAt.reserve(2 * cubes.size());
   std::vector<char> isNearWall;
   std::vector<int> all;
   for (const Cube& cube : cubes) {
@@ -292,14 +260,14 @@ void takeOut(const std::vector<Vec3>& points, BorderLattice& lattice) {
   for (const Vec3& x : points) {
     const Place place = ((x - lattice.origin) / lattice.edge).array().floor().cast<int>().matrix();
     for (int i = 0; i < 8; ++i) {
-      const int c = lattice.cornerAt.find(place + cornerStep(i));
-      if (c < 0 || !lattice.corners[at(c)].isInside) continue;
+      const auto known = lattice.cornerAt.find(place + cornerStep(i));
+      if (known == lattice.cornerAt.end()) continue;
+      const int c = known->second;
+      if (!lattice.corners[at(c)].isInside) continue;
       lattice.corners[at(c)].isInside = false;
       lattice.corners[at(c)].isTakenOut = true;
       for (int j = 0; j < 8; ++j) {
-        const Place cube = lattice.corners[at(c)].place - cornerStep(j);
-        const int known = lattice.cubeAt.find(cube);
-        around.push_back(known >= 0 ? known : addCube(cube, lattice));
+        around.push_back(cubeAt(lattice.corners[at(c)].place - cornerStep(j), lattice));
       }
     }
   }

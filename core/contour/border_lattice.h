@@ -4,32 +4,20 @@
 #include "core/contour/region.h"
 
 #include <array>
-#include <cstdint>
+#include <cstddef>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 namespace massprops {
 
 using Place = Eigen::Vector3i;
 
-/// Places with numbers: a hash table with open addresses.
-class PlaceTable {
-public:
-  explicit PlaceTable(std::size_t expected);
-  /// −1: not there.
-  int find(const Place& place) const;
-  /// The number of the place, `fresh` if it has none yet.
-  int findOrAdd(const Place& place, int fresh);
-
-private:
-  struct Entry {
-    std::uint64_t key;
-    int number;
-  };
-  std::size_t slotOf(std::uint64_t key) const;
-  std::vector<Entry> entries_;
-  std::size_t size_ = 0;
+struct PlaceHash {
+  std::size_t operator()(const Place& place) const;
 };
+/// Numbers of places.
+using PlaceNumbers = std::unordered_map<Place, int, PlaceHash>;
 
 /// A corner of cubes.
 struct Corner {
@@ -41,7 +29,7 @@ struct Corner {
   /// Empty: so far inside that it does not matter.
   std::optional<Sample> inset, cut;
   /// Where inset and cut come together at an acute angle: what cuts the edge between them off.
-  std::optional<Sample> blunt;
+  std::optional<Sample> chamfer;
 
   /// Of the region, about a signed distance; large where both are empty.
   double value() const;
@@ -56,7 +44,7 @@ struct BorderLattice {
   std::vector<Corner> corners;
   /// Corner i of a cube is the one at its place plus (i & 1, i >> 1 & 1, i >> 2).
   std::vector<std::array<int, 8>> cubes;
-  PlaceTable cubeAt{0}, cornerAt{0};
+  PlaceNumbers cubeAt, cornerAt;
 
   Vec3 positionOf(int corner) const {
     return origin + edge * corners[static_cast<std::size_t>(corner)].place.cast<double>();

@@ -33,16 +33,8 @@ double areaOf(const TriangleTree& surface) {
   return area;
 }
 
-Contour select(const Contour& contour, const Faces& faces) {
-  Submesh part = submesh(contour.mesh.vertices, faces);
-  std::vector<On> on;
-  on.reserve(part.vertexOf.size());
-  for (const int v : part.vertexOf) on.push_back(contour.on[static_cast<std::size_t>(v)]);
-  return {std::move(part.mesh), std::move(on)};
-}
-
-/// Without dust, and without what would lie loose in the cavity.
-Contour withoutCrumbs(const Contour& contour, double leastVolume) {
+/// Without dust, and without material that would lie loose in the cavity.
+Contour withoutLooseParts(const Contour& contour, double leastVolume) {
   const Points& vertices = contour.mesh.vertices;
   std::vector<Faces> kept;
   Eigen::Index count = 0;
@@ -57,7 +49,8 @@ Contour withoutCrumbs(const Contour& contour, double leastVolume) {
     faces.middleRows(row, part.rows()) = part;
     row += part.rows();
   }
-  return select(contour, faces);
+  Submesh part = submesh(vertices, faces);
+  return partOf(contour, std::move(part.mesh), part.vertexOf);
 }
 
 Contour thinnedOut(const Contour& contour, double distance) {
@@ -65,10 +58,7 @@ Contour thinnedOut(const Contour& contour, double distance) {
   const Points& vertices = contour.mesh.vertices;
   DecimatedMesh fewer =
       decimated(vertices, contour.mesh.faces, {vertices.rows(), 0, distance, kLeastAngle});
-  std::vector<On> on;
-  on.reserve(fewer.vertexOf.size());
-  for (const int v : fewer.vertexOf) on.push_back(contour.on[static_cast<std::size_t>(v)]);
-  return {std::move(fewer.mesh), std::move(on)};
+  return partOf(contour, std::move(fewer.mesh), fewer.vertexOf);
 }
 
 /// Few triangles, none of them a sliver, on the border.
@@ -117,11 +107,10 @@ std::optional<CavityContour> cavityContour(const TriangleTree& surface, double w
   // What the cubes are too large for becomes solid.
   constexpr int kRounds = 8;
   for (int round = 0; round < kRounds; ++round) {
-    const Contour raw = withoutCrumbs(dualContour(lattice), leastVolume);
+    const Contour raw = withoutLooseParts(dualContour(lattice), leastVolume);
     if (raw.mesh.faces.rows() == 0) return CavityContour{{}, edge};
     Contour contour = smoothed(region, edge, raw);
     const std::vector<Vec3> points = troubles(surface, kept, contour);
-
     if (points.empty()) return CavityContour{std::move(contour), edge};
     takeOut(points, lattice);
   }

@@ -157,7 +157,7 @@ private:
     const Vec3 from = lattice_.positionOf(inside);
     const Vec3 way = lattice_.positionOf(outside) - from;
     constexpr double kAwayFromTakenOut = 0.6;
-    if (b.isTakenOut) return {from + kAwayFromTakenOut * way, On::Blunt, {}};
+    if (b.isTakenOut) return {from + kAwayFromTakenOut * way, On::Chamfer, {}};
     constexpr double kAlmostAll = 0.98;
     if (b.value() > 0.0) return beyond(b, from + way, from + kAlmostAll * way);
     Root first;
@@ -172,8 +172,8 @@ private:
     };
     consider(a.inset, b.inset, On::Inset);
     consider(a.cut, b.cut, On::Cut);
-    consider(a.blunt, b.blunt, On::Blunt);
-    if (!(first.t <= 1.0)) return {from + kAwayFromTakenOut * way, On::Blunt, {}};
+    consider(a.chamfer, b.chamfer, On::Chamfer);
+    if (!(first.t <= 1.0)) return {from + kAwayFromTakenOut * way, On::Chamfer, {}};
     const Vec3 point = from + first.t * way;
     return {point, on, {{point, first.slope}}};
   }
@@ -188,8 +188,8 @@ private:
       on = candidate;
     };
     consider(corner.cut, On::Cut);
-    consider(corner.blunt, On::Blunt);
-    if (!*least) return {point, On::Blunt, {}};
+    consider(corner.chamfer, On::Chamfer);
+    if (!*least) return {point, On::Chamfer, {}};
     const Sample& sample = **least;
     return {point, on, {{x - sample.value * sample.slope, sample.slope}}};
   }
@@ -216,10 +216,10 @@ private:
     contour_.mesh.vertices.row(v) = fit.nearest().cwiseMax(low).cwiseMin(high).transpose();
     const bool isOnInset = isOn[static_cast<std::size_t>(On::Inset)];
     const bool isOnCut = isOn[static_cast<std::size_t>(On::Cut)];
-    contour_.on[at(v)] = isOn[static_cast<std::size_t>(On::Blunt)] ? On::Blunt
-                         : isOnInset && isOnCut                    ? On::Crease
-                         : isOnCut                                 ? On::Cut
-                                                                   : On::Inset;
+    contour_.on[at(v)] = isOn[static_cast<std::size_t>(On::Chamfer)] ? On::Chamfer
+                         : isOnInset && isOnCut                      ? On::Crease
+                         : isOnCut                                   ? On::Cut
+                                                                     : On::Inset;
   }
 
   /// The quadrilateral around the edge along `axis` that begins at the cube's first corner.
@@ -234,7 +234,7 @@ private:
     std::array<int, 4> ring{};
     int k = 0;
     for (const Place& p : {place, Place(place - u), Place(place - u - w), Place(place - w)}) {
-      ring[at(k++)] = vertexOf_[at(lattice_.cubeAt.find(p))];
+      ring[at(k++)] = vertexOf_[at(lattice_.cubeAt.at(p))];
     }
     if (!corner(a).isInside) std::swap(ring[1], ring[3]);
     const Vec3 from = lattice_.positionOf(a);
@@ -308,6 +308,13 @@ private:
 };
 
 } // namespace
+
+Contour partOf(const Contour& contour, TriangleMesh mesh, const std::vector<int>& vertexOf) {
+  Contour part{std::move(mesh), {}};
+  part.on.reserve(vertexOf.size());
+  for (const int v : vertexOf) part.on.push_back(contour.on[static_cast<std::size_t>(v)]);
+  return part;
+}
 
 Contour dualContour(const BorderLattice& lattice) {
   DualContouring contouring(lattice);

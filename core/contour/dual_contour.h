@@ -9,7 +9,7 @@ namespace massprops {
 
 /// What a vertex of the surface lies on: what the walls leave, the quadric, both, or where both
 /// come together at an acute angle and the edge between them is cut off.
-enum class On : char { Inset, Cut, Crease, Blunt };
+enum class On : char { Inset, Cut, Crease, Chamfer };
 
 struct Contour {
   /// Closed manifold components, outward, free of crossings: each quadrilateral around an edge of
@@ -18,6 +18,10 @@ struct Contour {
   TriangleMesh mesh;
   std::vector<On> on; ///< for every vertex
 };
+
+/// Some vertices of a contour and the faces between them. `vertexOf`: for every vertex of `mesh`
+/// its number in the contour.
+Contour partOf(const Contour& contour, TriangleMesh mesh, const std::vector<int>& vertexOf);
 
 /// Dual contouring: a vertex in each cube that the border cuts, where the planes along it meet, so
 /// that creases come out sharp; a quadrilateral across each edge with one end inside. [JLSW02]

@@ -32,7 +32,7 @@ public:
 
   Vec3 onto(const Vec3& x, On& on) {
     Vec3 y = x;
-    if (on == On::Blunt) return y;
+    if (on == On::Chamfer) return y;
     for (int step = 0; step < kSteps; ++step) {
       Vec3 way = Vec3::Zero();
       const bool needsInset = on != On::Cut || step == 0;
@@ -75,7 +75,7 @@ void project(const Region& region, double farthest, Contour& contour) {
   for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
     On& on = contour.on[static_cast<std::size_t>(v)];
     const double left = (targets.row(v) - vertices.row(v)).norm();
-    if (on == On::Crease && left > kThere * farthest) on = On::Blunt;
+    if (on == On::Crease && left > kThere * farthest) on = On::Chamfer;
   }
 }
 

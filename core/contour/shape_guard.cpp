@@ -1,11 +1,12 @@
 #include "core/contour/shape_guard.h"
 
 #include "core/base/triangle.h"
+#include "core/mesh/connectivity.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace massprops {
+namespace {
 
 bool staysSound(const Points& vertices, const Faces& faces, IndexRange corners, const Vec3& x) {
   constexpr double kLeastCosine = 0.34;
@@ -23,6 +24,8 @@ bool staysSound(const Points& vertices, const Faces& faces, IndexRange corners, 
     return angle >= kSmallAngle || angle >= leastAngle(a, b, c);
   });
 }
+
+} // namespace
 
 void moveSoundly(const Points& targets, const Faces& faces, Points& vertices) {
   const VertexCorners corners = vertexCorners(vertices.rows(), faces);

@@ -30,7 +30,7 @@ public:
   int sharpen() {
     int changes = 0;
     for (int v = 0; v < static_cast<int>(contour_.on.size()); ++v) {
-      if (contour_.on[at(v)] == On::Blunt && goesOntoCrease(v)) ++changes;
+      if (contour_.on[at(v)] == On::Chamfer && goesOntoCrease(v)) ++changes;
     }
     dropGone();
     return changes;
@@ -212,10 +212,7 @@ int removeSlivers(double angle, Contour& contour) {
     if (changes == 0) break;
   }
   Submesh used = submesh(contour.mesh.vertices, contour.mesh.faces);
-  std::vector<On> on;
-  on.reserve(used.vertexOf.size());
-  for (const int v : used.vertexOf) on.push_back(contour.on[static_cast<std::size_t>(v)]);
-  contour = {std::move(used.mesh), std::move(on)};
+  contour = partOf(contour, std::move(used.mesh), used.vertexOf);
   return left;
 }
 

@@ -9,8 +9,9 @@
 
 namespace massprops {
 
-/// Moves vertices away from the outer surface until no triangle is nearer to it than `wall`, as far
-/// as triangles stay sound. The vertices of those for which that did not do.
+/// Moves vertices away from the outer surface until no triangle is nearer to it than `wall`, a
+/// length in their unit, as far as triangles stay sound. The vertices of triangles that are still
+/// nearer, ascending. \pre closed outward surfaces, the cavity inside of the other
 std::vector<int> keepWall(const TriangleTree& surface, double wall, TriangleMesh& cavity);
 
 } // namespace massprops

@@ -40,6 +40,26 @@ Constraints constraints(const std::vector<GoalConstraints>& ofStates,
 
 } // namespace
 
+std::vector<BodyState> bodyStates(const Fillings& fillings, const BodyState& outer,
+                                  const BodyState& cavity,
+                                  const std::function<BodyState(double)>& below) {
+  const Eigen::Index k = cavity.jacobian.cols();
+  std::vector<BodyState> states;
+  states.reserve(fillings.size());
+  for (const Filling& filling : fillings) {
+    const double density = filling.isPartial() ? 0.0 : filling.density;
+    BodyState state{shellMoments(outer.mass, cavity.mass, 1.0, density), outer.jacobian};
+    state.jacobian.leftCols(k) += (density - 1.0) * cavity.jacobian;
+    if (filling.isPartial()) {
+      const BodyState contents = below(filling.level);
+      state.mass += filling.density * contents.mass;
+      state.jacobian.leftCols(k) += filling.density * contents.jacobian;
+    }
+    states.push_back(std::move(state));
+  }
+  return states;
+}
+
 double momentObjective(const Goal& goal, const Weights& weights, const std::vector<Moments>& states,
                        double volumeShare) {
   Vector values(static_cast<Eigen::Index>(states.size()));

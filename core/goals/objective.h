@@ -4,7 +4,9 @@
 #include "core/base/minimize.h"
 #include "core/base/options.h"
 #include "core/goals/goal.h"
+#include "core/physics/filling.h"
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -18,6 +20,13 @@ struct BodyState {
   Moments mass;
   MomentJacobian jacobian;
 };
+
+/// The body of density 1 between an outer surface and a cavity, in each state. `cavity`: its
+/// derivatives are by the first of the outer surface's variables; `below`: of its part below a
+/// level, asked for with contents up to one.
+std::vector<BodyState> bodyStates(const Fillings& fillings, const BodyState& outer,
+                                  const BodyState& cavity,
+                                  const std::function<BodyState(double)>& below = {});
 
 /// Terms 1, 2, 3 and 5 of the objective (docs/math.md, "Objective") of a body with these mass
 /// moments, one for each of its states (filling.h): the soft maximum of the goal's objective, and

@@ -145,12 +145,8 @@ private:
   }
 
   std::vector<BodyState> statesOf(const Hollow& h) const {
-    std::vector<BodyState> states;
-    for (const Filling& filling : fillings_) {
-      const double change = filling.density - 1.0;
-      states.push_back({solid_ + change * h.cavity, change * h.jacobian});
-    }
-    return states;
+    return bodyStates(fillings_, {solid_, MomentJacobian::Zero(10, h.jacobian.cols())},
+                      {h.cavity, h.jacobian});
   }
 
   Evaluation evaluate(const Vector& q, ShareOf shareOf) const {

@@ -98,25 +98,6 @@ private:
   Points positions_, directions_;
 };
 
-/// The body in each of its states. `outer`: by the coefficients, α first.
-std::vector<BodyState> statesOf(const OffsetModel& model, const BodyState& outer,
-                                const BodyState& cavity, const CavityMoments& moments) {
-  const Eigen::Index k = cavity.jacobian.cols();
-  std::vector<BodyState> states;
-  for (const Filling& filling : model.fillings) {
-    const double density = filling.isPartial() ? 0.0 : filling.density;
-    BodyState state{shellMoments(outer.mass, cavity.mass, 1.0, density), outer.jacobian};
-    state.jacobian.leftCols(k) += (density - 1.0) * cavity.jacobian;
-    if (filling.isPartial()) {
-      const BodyState contents = moments.below(filling.level);
-      state.mass += filling.density * contents.mass;
-      state.jacobian.leftCols(k) += filling.density * contents.jacobian;
-    }
-    states.push_back(std::move(state));
-  }
-  return states;
-}
-
 /// Of the outer surface, by α and, if it moves, β.
 BodyState outerState(const OffsetModel& model, const OffsetSurfaces& surfaces, bool usesInertia) {
   const Eigen::Index k = model.surface->basis.functions.cols();
@@ -157,7 +138,9 @@ Evaluation evaluate(const OffsetModel& model, const Goal& goal, const Weights& w
   Vector volumeGradient = outer.jacobian.row(0).transpose();
   volumeGradient.head(k) -= cavity.jacobian.row(0).transpose();
   Evaluation e =
-      evaluateBody(goal, weights, statesOf(model, outer, cavity, cavityMoments),
+      evaluateBody(goal, weights,
+                   bodyStates(model.fillings, outer, cavity,
+                              [&](double level) { return cavityMoments.below(level); }),
                    (outer.mass[0] - cavity.mass[0]) / solidVolume, volumeGradient / solidVolume);
 
   // Term 4: Dirichlet energy δᵀLδ of the inner offsets.

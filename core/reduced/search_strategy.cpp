@@ -108,16 +108,11 @@ CavityResult bestCavity(CavityTask& task, const Redirected& steeper,
   return best;
 }
 
-double largestWall(CavityTask task, const std::function<OffsetBounds(double)>& boundsFor,
-                   const std::function<void(double)>& progress) {
+double greatestWall(double tooThick, const std::function<bool(double)>& hasRoom,
+                    const std::function<void(double)>& progress) {
   constexpr int kHalvings = 10;
   constexpr int kBisections = 3;
   int tried = 0;
-  const auto hasRoom = [&](double wall) {
-    task.wall = wall;
-    task.model.inner = boundsFor(wall);
-    return leavesRoom(task);
-  };
   // Near its limit the search finds a cavity at one wall and none at a slightly thinner one, so
   // that a wall counts only when a thinner one works, too.
   const auto works = [&](double wall) {
@@ -125,9 +120,6 @@ double largestWall(CavityTask task, const std::function<OffsetBounds(double)>& b
     if (progress) progress(static_cast<double>(++tried) / (kHalvings + kBisections));
     return result;
   };
-  const OffsetBounds thinnest = boundsFor(0.0);
-  double tooThick =
-      std::min(task.wall, thinnest.upper.cwiseProduct(task.model.field.clearance).maxCoeff());
   double found = 0.0;
   for (int i = 0; i < kHalvings && found == 0.0 && tooThick > 0.0; ++i) {
     const double half = 0.5 * tooThick;
@@ -138,6 +130,19 @@ double largestWall(CavityTask task, const std::function<OffsetBounds(double)>& b
     (works(middle) ? found : tooThick) = middle;
   }
   return found;
+}
+
+double largestWall(CavityTask task, const std::function<OffsetBounds(double)>& boundsFor,
+                   const std::function<void(double)>& progress) {
+  const OffsetBounds thinnest = boundsFor(0.0);
+  const double tooThick =
+      std::min(task.wall, thinnest.upper.cwiseProduct(task.model.field.clearance).maxCoeff());
+  const auto hasRoom = [&](double wall) {
+    task.wall = wall;
+    task.model.inner = boundsFor(wall);
+    return leavesRoom(task);
+  };
+  return greatestWall(tooThick, hasRoom, progress);
 }
 
 } // namespace massprops

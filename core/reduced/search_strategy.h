@@ -25,6 +25,11 @@ CavityResult bestCavity(CavityTask& task, const Redirected& steeper,
 /// least; empty where none of them is noticeably worse than the task's own fillings.
 std::optional<Filling> weakestFilling(const CavityTask& task, const CavityResult& cavity);
 
+/// The greatest wall below one that is too thick at which there is room, and at slightly less, too,
+/// within an eighth of it; 0 when none was found down to a thousandth. `progress` as below.
+double greatestWall(double tooThick, const std::function<bool(double)>& hasRoom,
+                    const std::function<void(double)>& progress);
+
 /// The greatest wall below the wanted one that leaves room for a cavity, within an eighth of it,
 /// working length; 0 when none was found down to a thousandth. `boundsFor`: the offsets' bounds
 /// that keep a wall. `progress`: called with the share of the work that is done, 0…1; may be empty.

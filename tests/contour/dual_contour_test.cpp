@@ -62,15 +62,15 @@ TEST(DualContour, OfABoxCutByAPlaneHasACreaseWhereTheyMeet) {
   expectClosedManifold(inner.mesh);
   int creases = 0;
   int away = 0;
-  int blunt = 0;
+  int chamfers = 0;
   for (Eigen::Index v = 0; v < inner.mesh.vertices.rows(); ++v) {
     const Vec3 x = inner.mesh.vertices.row(v).transpose();
     const double fromInset = 0.8 - x.cwiseAbs().maxCoeff();
     const double fromCut = normal.dot(x) - 0.1;
     EXPECT_GT(std::min(fromInset, fromCut), -1e-6);
     const On on = inner.on[static_cast<std::size_t>(v)];
-    if (on == On::Blunt) {
-      ++blunt;
+    if (on == On::Chamfer) {
+      ++chamfers;
       EXPECT_LT(std::max(fromInset, fromCut), 0.2 * edge);
       continue;
     }
@@ -79,7 +79,7 @@ TEST(DualContour, OfABoxCutByAPlaneHasACreaseWhereTheyMeet) {
   }
   EXPECT_GT(creases, 50);
   EXPECT_EQ(away, 0);
-  EXPECT_LT(blunt, creases / 2);
+  EXPECT_LT(chamfers, creases / 2);
 }
 
 TEST(DualContour, OfABallCutByAnEllipsoidHasTheVolumeBetween) {
@@ -163,7 +163,7 @@ TEST(Projection, PutsVerticesOnWhatTheyLieOn) {
     const On on = contour.on[static_cast<std::size_t>(v)];
     const bool isOff = (on != On::Cut && std::abs(probe.at(x, 0.1).value) > 1e-6) ||
                        (on != On::Inset && std::abs(cutAt(region, x).value) > 1e-6);
-    if (on != On::Blunt && isOff) ++off;
+    if (on != On::Chamfer && isOff) ++off;
   }
   EXPECT_LT(off, contour.mesh.vertices.rows() / 200);
 }

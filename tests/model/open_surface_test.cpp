@@ -427,6 +427,9 @@ TEST(OpenSurface, IsRefusedWithWhatToDo) {
   options.outerUpperBound = 1.0;
   says(vase, "stays where it is");
   options.outerUpperBound = 0.0;
+  options.cavityShape = CavityShape::BestPossible;
+  says(vase, "needs a closed surface: set cavity_shape to Automatic or Offset surface");
+  options.cavityShape = CavityShape::Automatic;
 
   // Flat: the lid lies on the surface.
   says(where(box({4.0, 4.0, 4.0}, 4), [](const Vec3& c) { return c.z() > 1.999; }),
