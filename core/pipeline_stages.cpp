@@ -11,6 +11,7 @@
 #include "core/reduced/hollow_body.h"
 #include "core/reduced/search_strategy.h"
 
+#include <cmath>
 #include <exception>
 #include <new>
 #include <string>
@@ -178,7 +179,8 @@ std::string reasonForBestPossible(const Options& options, const Search& found) {
   constexpr double kFar = 0.03;
   // With a weight on smoothness it is far by intention.
   if (gap > kFar && options.weights.smoothness == 0.0) {
-    return "the offset surface leaves " + toString(100.0 * gap) + " % of what is possible";
+    const double rounded = std::round(1000.0 * gap) / 10.0;
+    return "the offset surface leaves " + toString(rounded) + " % of what is possible";
   }
   const bool isSolved =
       after.violation <= kFeasibility && found.verdictAfter->isReached(after.mass);
@@ -186,20 +188,23 @@ std::string reasonForBestPossible(const Options& options, const Search& found) {
 }
 
 /// Takes it where it is asked for or serves better.
-void considerBestPossible(const Preparation& model, const Options& options, ProgressBar& bar,
-                          Search& found) {
+void considerBestPossible(const Preparation& model, const Foundation& foundation,
+                          const Options& options, ProgressBar& bar, Search& found) {
   found.shapeReason = "as asked for";
   if (options.cavityShape == CavityShape::Offset) return;
   if (moves(options) || model.posed.open) {
     found.shapeReason = "the best possible cavity needs a closed surface that rests";
     return;
   }
+  if (!found.task.bound) {
+    found.shapeReason = "what is possible is not known";
+    return;
+  }
   found.shapeReason = "it comes near to what is possible";
-  if (!found.task.bound) return;
   const std::string reason = reasonForBestPossible(options, found);
   if (reason.empty()) return;
   bar.show(Schedule::kEnd, "Best possible cavity");
-  CavityResult best = bestPossibleCavity(found.task);
+  CavityResult best = bestPossibleCavity(found.task, *foundation.deliverable);
   best.effort += found.cavity.effort;
   if (options.cavityShape != CavityShape::BestPossible &&
       !servesBetter(found.task, best, found.cavity)) {
@@ -282,10 +287,19 @@ Foundation coarsen(const Preparation& model, const Options& options, ProgressBar
   const auto findBound = [&] {
     if (moves(options) || model.posed.open) return;
     const Stopwatch time;
-    const AdmissibleCells cells = admissibleCells(model.surface, model.posed.wall);
+    const RegionParts behindWalls = admissibleParts(model.surface, model.posed.wall);
+    const AdmissibleCells cells = cellsOf(behindWalls);
     if (cells.rows() == 0) return;
-    result.bound = optimalBound(*model.goal, options.weights, model.solidMoments,
-                                statesOf(model, options), cells);
+    const Goal& goal = *model.goal;
+    const Weights& weights = options.weights;
+    const Fillings states = statesOf(model, options);
+    result.bound = optimalBound(goal, weights, model.solidMoments, states, cells);
+    result.deliverable.emplace(deliverableSet(model.surface, model.posed.wall));
+    const AdmissibleCells wide = cellsOf(partsWithin(*result.deliverable, behindWalls));
+    if (wide.col(0).sum() < cells.col(0).sum()) {
+      result.bound =
+          withBodyWithin(wide, std::move(*result.bound), goal, weights, model.solidMoments, states);
+    }
     result.secondsBound = time.seconds();
   };
   const auto coarsenModel = [&] {
@@ -324,7 +338,7 @@ Search search(const Preparation& model, const Foundation& foundation, const Opti
                       : Search{taskOf(*model.goal, model, foundation, options), {}};
   result.verdictBefore = makeVerdict(options, model.posed, model.posed.vertices);
   judge(model, options, result);
-  considerBestPossible(model, options, bar, result);
+  considerBestPossible(model, foundation, options, bar, result);
   findPrintMargins(model, result);
   proveOutOfReach(model, options, result);
   if (result.cavity.status != CavityStatus::NoRoom) return result;

@@ -4,6 +4,7 @@
 #include "core/answer/print_margins.h"
 #include "core/base/options.h"
 #include "core/base/stopwatch.h"
+#include "core/contour/opened_set.h"
 #include "core/goals/goal.h"
 #include "core/goals/verdict.h"
 #include "core/model/posed_model.h"
@@ -76,6 +77,7 @@ Preparation prepare(const TriangleMesh& model, const Options& options, ProgressB
 struct Foundation {
   Coarsening coarse;
   std::optional<OptimalBound> bound;
+  std::optional<OpenedSet> deliverable; ///< with the bound
   double secondsBound = 0.0, secondsCrossings = 0.0;
 };
 

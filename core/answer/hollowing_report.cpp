@@ -38,8 +38,11 @@ std::string outlook(const CavityTask& task, const Verdict& verdict, bool isProve
     return " No cavity of any shape that keeps this wall can reach it.";
   }
   if (task.bound->isReachable()) {
-    return verdict.isReached(task.bound->massMoments)
-               ? " A cavity of another shape could reach it."
+    if (verdict.isReached(task.bound->massMoments)) {
+      return " A cavity of another shape could reach it.";
+    }
+    return verdict.isReached(task.bound->massMomentsInAll)
+               ? " Only a cavity with channels narrower than the wall could reach it."
                : " No cavity of any other shape was found to reach it.";
   }
   const LevelBound* best = task.bound->bestLevel();
@@ -47,7 +50,7 @@ std::string outlook(const CavityTask& task, const Verdict& verdict, bool isProve
                               : " No cavity of any shape that keeps this wall was found to reach "
                                 "it: ") +
          verdict.bestInWords(best != nullptr ? best->states
-                                             : std::vector<Moments>{task.bound->massMoments}) +
+                                             : std::vector<Moments>{task.bound->massMomentsInAll}) +
          ".";
 }
 

@@ -14,8 +14,6 @@
 namespace massprops {
 namespace {
 
-constexpr double kCubes = 40000.0;
-
 Points delivered(const CavityTask& task, const Points& working) {
   return task.deliverable ? task.deliverable(working) : working;
 }
@@ -79,20 +77,27 @@ CavityResult polished(const CavityTask& task, const Moments& quadric, double wal
 
 bool leavesRoom(const TriangleTree& surface, double wall) {
   constexpr double kFewCubes = 8000.0;
-  const std::optional<CavityContour> found = cavityContour(surface, wall, {}, kFewCubes);
+  const std::optional<CavityContour> found = cavityContour(openedSet(surface, wall, kFewCubes), {});
   return found && found->contour.mesh.faces.rows() > 0;
 }
 
 } // namespace
 
-CavityResult bestPossibleCavity(const CavityTask& task) {
+OpenedSet deliverableSet(const TriangleTree& surface, double wall) {
+  constexpr double kCubes = 40000.0;
+  return openedSet(surface, wall, kCubes);
+}
+
+CavityResult bestPossibleCavity(const CavityTask& task, const OpenedSet& deliverable) {
   const Stopwatch time;
   const Moments quadric = quadricOf(task.bound->worth);
   double wall = task.wall;
   CavityResult result;
   constexpr int kRounds = 3;
   for (int round = 1; round <= kRounds; ++round) {
-    const std::optional<CavityContour> found = cavityContour(task.surface, wall, quadric, kCubes);
+    const std::optional<CavityContour> found =
+        round == 1 ? cavityContour(deliverable, quadric)
+                   : cavityContour(deliverableSet(task.surface, wall), quadric);
     if (!found || found->contour.mesh.faces.rows() == 0) {
       result = {};
       // Where there is room the limit's body is the solid one.

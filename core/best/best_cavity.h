@@ -1,17 +1,21 @@
 // The best possible cavity as a surface.
 #pragma once
 
+#include "core/contour/opened_set.h"
 #include "core/reduced/cavity_search.h"
 
 #include <functional>
 
 namespace massprops {
 
-/// What lies behind the walls on the positive side of the bound's quadric: its surface, adjusted so
-/// that the body of these triangles keeps the constraints. Passed inspection, as with
+/// What a cavity may take behind a wall, as finely as it is delivered.
+OpenedSet deliverableSet(const TriangleTree& surface, double wall);
+
+/// The part of what can be delivered on the positive side of the bound's quadric: its surface,
+/// adjusted so that the body of these triangles keeps the constraints. Passed inspection, as with
 /// `searchCavity`; status NoGain: the solid body serves the goal at least as well. The outer
 /// surface rests. \pre there is a bound, the surface is closed
-CavityResult bestPossibleCavity(const CavityTask& task);
+CavityResult bestPossibleCavity(const CavityTask& task, const OpenedSet& deliverable);
 
 /// As `largestWall`, for a best possible cavity.
 double largestWallForBestPossible(const CavityTask& task,

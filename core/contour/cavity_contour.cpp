@@ -1,6 +1,5 @@
 #include "core/contour/cavity_contour.h"
 
-#include "core/base/triangle.h"
 #include "core/contour/projection.h"
 #include "core/contour/slivers.h"
 #include "core/contour/wall_keeping.h"
@@ -16,22 +15,6 @@
 
 namespace massprops {
 namespace {
-
-/// More than the wanted wall: what rounding takes.
-constexpr double kMargin = 1e-5;
-/// No ball of this radius fits into what is too narrow; in walls.
-constexpr double kNarrow = 0.5;
-/// How far from the middle of such a ball the cavity goes, in its radii: a cube's corner, too, is
-/// reached.
-constexpr double kReach = 1.8;
-
-double areaOf(const TriangleTree& surface) {
-  double area = 0.0;
-  for (Eigen::Index f = 0; f < surface.faces().rows(); ++f) {
-    area += 0.5 * areaNormal(surface.vertices(), surface.faces(), f).norm();
-  }
-  return area;
-}
 
 /// Without dust, and without material that would lie loose in the cavity.
 Contour withoutLooseParts(const Contour& contour, double leastVolume) {
@@ -86,32 +69,20 @@ std::vector<Vec3> troubles(const TriangleTree& surface, double wall, Contour& co
 
 } // namespace
 
-std::optional<CavityContour> cavityContour(const TriangleTree& surface, double wall,
-                                           const std::optional<Moments>& quadric, double cubes) {
-  // A border of area A passes through about 1.5 A/h² cubes.
-  constexpr double kCubesPerSquare = 1.5;
-  constexpr double kLeastEdge = 1.0 / 1000.0;
-  const double edge = std::max(std::sqrt(kCubesPerSquare * areaOf(surface) / cubes), kLeastEdge);
-  const double kept = (1.0 + kMargin) * wall;
-  const double narrow = kNarrow * wall;
-  constexpr double kCoarser = 1.4; // nobody sees it
-  const double deepEdge = kCoarser * edge;
-  const TriangleMesh deepBorder =
-      dualContour(borderLattice({surface, kept + narrow}, deepEdge)).mesh;
-  if (deepBorder.faces.rows() == 0) return CavityContour{{}, edge};
-  const TriangleTree deepTree(deepBorder.vertices, deepBorder.faces);
-  const DeepPart deep{deepTree, kept + narrow + 2.0 * deepEdge, kReach * narrow};
-  const double leastVolume = std::pow(wall, 3);
-  const Region region{surface, kept, &deep, quadric};
-  BorderLattice lattice = borderLattice(region, edge);
+std::optional<CavityContour> cavityContour(const OpenedSet& set,
+                                           const std::optional<Moments>& quadric) {
+  if (!set.deep) return CavityContour{{}, set.edge};
+  const double leastVolume = std::pow(set.wall, 3);
+  const Region region{set.surface, set.wall, &*set.deep, quadric};
+  BorderLattice lattice = borderLattice(region, set.edge);
   // What the cubes are too large for becomes solid.
   constexpr int kRounds = 8;
   for (int round = 0; round < kRounds; ++round) {
     const Contour raw = withoutLooseParts(dualContour(lattice), leastVolume);
-    if (raw.mesh.faces.rows() == 0) return CavityContour{{}, edge};
-    Contour contour = smoothed(region, edge, raw);
-    const std::vector<Vec3> points = troubles(surface, kept, contour);
-    if (points.empty()) return CavityContour{std::move(contour), edge};
+    if (raw.mesh.faces.rows() == 0) return CavityContour{{}, set.edge};
+    Contour contour = smoothed(region, set.edge, raw);
+    const std::vector<Vec3> points = troubles(set.surface, set.wall, contour);
+    if (points.empty()) return CavityContour{std::move(contour), set.edge};
     takeOut(points, lattice);
   }
   return {};

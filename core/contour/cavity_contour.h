@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/contour/dual_contour.h"
+#include "core/contour/opened_set.h"
 
 #include <optional>
 
@@ -13,13 +14,11 @@ struct CavityContour {
   double edge = 0.0;
 };
 
-/// The points at least `wall` behind the surface where a ball as wide as the wall fits, a little
-/// more at edges, and the quadric (1, x, y, z, xx, yy, zz, xy, yz, zx)·quadric is positive, if one
-/// is given. Closed components, outward, that do not cross themselves, no point of which is nearer
-/// to the surface than `wall`; no faces where there is no such point. Empty: it was not found,
-/// which happens on surfaces far too uneven. `surface`: closed, outward. `cubes`: about how many
-/// the border passes through.
-std::optional<CavityContour> cavityContour(const TriangleTree& surface, double wall,
-                                           const std::optional<Moments>& quadric, double cubes);
+/// The points of the opened set where the quadric (1, x, y, z, xx, yy, zz, xy, yz, zx)·quadric is
+/// positive, if one is given. Closed components, outward, that do not cross themselves, no point of
+/// which is nearer to the surface than the set's wall; no faces where there is no such point.
+/// Empty: it was not found, which happens on surfaces far too uneven.
+std::optional<CavityContour> cavityContour(const OpenedSet& set,
+                                           const std::optional<Moments>& quadric);
 
 } // namespace massprops

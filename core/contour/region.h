@@ -5,15 +5,17 @@
 #include "core/query/point_in_mesh.h"
 #include "core/query/triangle_tree.h"
 
+#include <memory>
 #include <optional>
 
 namespace massprops {
 
 /// The widest places of a region: about what lies at least a depth behind the outer surface.
 struct DeepPart {
-  const TriangleTree& border; ///< closed, outward
-  double depth;               ///< behind which everything certainly belongs to it
-  double reach;               ///< no point of the region is farther from the deep part
+  std::unique_ptr<const TriangleMesh> mesh; ///< closed, outward
+  TriangleTree border;                      ///< of the mesh
+  double depth;                             ///< behind which everything certainly belongs to it
+  double reach; ///< no point of the region is farther from the deep part
 };
 
 /// Points at least a wall behind the surface, not farther from the deep part than its reach, on the

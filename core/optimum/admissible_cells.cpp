@@ -35,46 +35,9 @@ public:
   static constexpr int kTop = 4;
   static double topEdge(double edge) { return edge * (1 << (kTop - 1)); }
 
-  AdmissibleCells cells() const {
-    std::vector<Moments> result;
-    int cell = kNone;
-    for (const Part& part : parts_) {
-      const double edge = edge_ * std::ldexp(1.0, part.level - 1);
-      if (part.level > 0) {
-        const int n = 1 << (part.level - 1);
-        const Vec3 first = part.centre - Vec3::Constant(0.5 * (edge - edge_));
-        for (int j = 0; j < n * n * n; ++j) {
-          const int layer = j / n;
-          const Eigen::Vector3i place(j % n, layer % n, layer / n);
-          result.emplace_back(
-              cubeMoments(first + edge_ * place.cast<double>(), edge_, edge_ * edge_ * edge_));
-        }
-        continue;
-      }
-      // The part of the cube behind the plane that is a wall away from the surface.
-      const CubeCut cut = cubeCut(part.inwards, (wall_ - part.depth) / edge);
-      if (cut.volume <= 0.0) continue;
-      if (part.cell != cell) result.emplace_back(Moments::Zero());
-      cell = part.cell;
-      result.back() +=
-          cubeMoments(part.centre + edge * cut.centroid, edge, cut.volume * edge * edge * edge);
-    }
-    AdmissibleCells rows(static_cast<Eigen::Index>(result.size()), 10);
-    for (std::size_t i = 0; i < result.size(); ++i) {
-      rows.row(static_cast<Eigen::Index>(i)) = result[i].transpose();
-    }
-    return rows;
-  }
+  std::vector<RegionPart> parts() && { return std::move(parts_); }
 
 private:
-  struct Part {
-    Vec3 centre;
-    double depth; ///< behind the surface, negative outside
-    Vec3 inwards; ///< unit, where the depth grows
-    int level;    ///< 0: part of a border cell; else a cube of cells that are all beyond the wall
-    int cell;     ///< number of the border cell
-  };
-
   /// The surface does not come into it, so that all of it is on one side.
   struct Ball {
     Vec3 centre;
@@ -147,7 +110,7 @@ private:
   const TriangleTree& surface_;
   double wall_;
   double edge_;
-  std::vector<Part> parts_;
+  std::vector<RegionPart> parts_;
   std::vector<Ball> known_; ///< around the cubes that the present one is part of, and their parts
   int borderCells_ = 0;
 };
@@ -160,7 +123,7 @@ double cellEdge(const Vec3& extent, int cells) {
 
 } // namespace
 
-AdmissibleCells admissibleCells(const TriangleTree& surface, double wall, int cells) {
+RegionParts admissibleParts(const TriangleTree& surface, double wall, int cells) {
   const Vec3 low = surface.vertices().colwise().minCoeff();
   const Vec3 high = surface.vertices().colwise().maxCoeff();
   const Vec3 extent = high - low;
@@ -169,24 +132,63 @@ AdmissibleCells admissibleCells(const TriangleTree& surface, double wall, int ce
   const double step = RegionSampler::topEdge(edge);
   const Eigen::Array<Eigen::Index, 3, 1> counts =
       ((high - low) / step).array().ceil().max(1.0).cast<Eigen::Index>();
-  std::vector<AdmissibleCells> parts(static_cast<std::size_t>(counts.prod()));
+  std::vector<std::vector<RegionPart>> chunks(static_cast<std::size_t>(counts.prod()));
   forChunks(counts.prod(), 1, [&](const Chunk& chunk) {
     const Eigen::Index column = chunk.number / counts.z();
     const Eigen::Array<Eigen::Index, 3, 1> place(column / counts.y(), column % counts.y(),
                                                  chunk.number % counts.z());
     RegionSampler sampler(surface, wall, edge);
     sampler.add(low + step * (place.cast<double>() + 0.5).matrix());
-    parts[static_cast<std::size_t>(chunk.number)] = sampler.cells();
+    chunks[static_cast<std::size_t>(chunk.number)] = std::move(sampler).parts();
   });
-  Eigen::Index count = 0;
-  for (const AdmissibleCells& part : parts) count += part.rows();
-  AdmissibleCells all(count, 10);
-  Eigen::Index row = 0;
-  for (const AdmissibleCells& part : parts) {
-    all.middleRows(row, part.rows()) = part;
-    row += part.rows();
+  RegionParts all{edge, wall, {}};
+  int known = 0;
+  for (const std::vector<RegionPart>& chunk : chunks) {
+    int most = kNone;
+    for (RegionPart part : chunk) {
+      most = std::max(most, part.cell);
+      if (part.level == 0) part.cell += known;
+      all.parts.push_back(std::move(part));
+    }
+    known += most + 1;
   }
   return all;
+}
+
+AdmissibleCells cellsOf(const RegionParts& region) {
+  const double cellEdge = region.edge;
+  std::vector<Moments> result;
+  int cell = kNone;
+  for (const RegionPart& part : region.parts) {
+    const double edge = cellEdge * std::ldexp(1.0, part.level - 1);
+    if (part.level > 0) {
+      const int n = 1 << (part.level - 1);
+      const Vec3 first = part.centre - Vec3::Constant(0.5 * (edge - cellEdge));
+      for (int j = 0; j < n * n * n; ++j) {
+        const int layer = j / n;
+        const Eigen::Vector3i place(j % n, layer % n, layer / n);
+        result.emplace_back(
+            cubeMoments(first + cellEdge * place.cast<double>(), cellEdge, std::pow(cellEdge, 3)));
+      }
+      continue;
+    }
+    // The part of the cube behind the plane that is a wall away from the surface.
+    const CubeCut cut = cubeCut(part.inwards, (region.wall - part.depth) / edge);
+    if (cut.volume <= 0.0) continue;
+    if (part.cell != cell) result.emplace_back(Moments::Zero());
+    cell = part.cell;
+    result.back() +=
+        cubeMoments(part.centre + edge * cut.centroid, edge, cut.volume * edge * edge * edge);
+  }
+  AdmissibleCells rows(static_cast<Eigen::Index>(result.size()), 10);
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    rows.row(static_cast<Eigen::Index>(i)) = result[i].transpose();
+  }
+  return rows;
+}
+
+AdmissibleCells admissibleCells(const TriangleTree& surface, double wall, int cells) {
+  return cellsOf(admissibleParts(surface, wall, cells));
 }
 
 std::vector<double> layerHeights(const TriangleTree& surface, int cells) {

@@ -12,6 +12,26 @@ namespace massprops {
 /// part of it that may be hollow. Working frame.
 using AdmissibleCells = Eigen::Matrix<double, Eigen::Dynamic, 10, Eigen::RowMajor>;
 
+/// Where a cube lies whose points may be hollow, or part of them.
+struct RegionPart {
+  Vec3 centre;
+  double depth; ///< behind the surface, negative outside
+  Vec3 inwards; ///< unit, where the depth grows
+  int level; ///< 0: half as wide as a cell; else a cube of 2^(level − 1) cells a side, all hollow
+  int cell;  ///< of level 0: number of the cell that it is part of; those of a cell follow on
+};
+struct RegionParts {
+  double edge = 0.0; ///< of a cell
+  double wall = 0.0; ///< what may be hollow is deeper
+  std::vector<RegionPart> parts;
+};
+
+/// The cubes that `admissibleCells` are made of, see there.
+RegionParts admissibleParts(const TriangleTree& surface, double wall, int cells = 20000);
+
+/// The border is taken as a plane in each part of a cell.
+AdmissibleCells cellsOf(const RegionParts& region);
+
 /// Cubes, about `cells` of them in the model's bounding box. Those at the border of the region are
 /// divided once more, and the border is taken as a plane in each part: the region comes out too
 /// large at its edges, if anything, never too small.

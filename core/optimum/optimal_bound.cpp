@@ -228,32 +228,19 @@ std::vector<T> chosen(const std::vector<T>& all, const std::vector<std::size_t>&
   return result;
 }
 
-} // namespace
-
-bool OptimalBound::isReachable() const {
-  const LevelBound* best = bestLevel();
-  return best != nullptr ? best->reached >= wantedLevel - kReachable : violation <= kReachable;
+std::vector<LevelBound> levelsOf(const Goal& goal, const Moments& solid, const Fillings& fillings,
+                                 const AdmissibleCells& cells) {
+  std::vector<LevelBound> levels;
+  for (const LinearConditions& conditions : goal.conditions()) {
+    levels.push_back(greatestLevel(conditions, solid, fillings, cells));
+  }
+  return levels;
 }
 
-const LevelBound* OptimalBound::bestLevel() const {
-  const auto best =
-      std::max_element(levels.begin(), levels.end(), [](const LevelBound& a, const LevelBound& b) {
-        return a.reached < b.reached;
-      });
-  return best != levels.end() ? &*best : nullptr;
-}
-
-OptimalBound optimalBound(const Goal& goal, const Weights& weights, const Moments& solid,
-                          const Fillings& fillings, const AdmissibleCells& cells) {
-  OptimalBound bound;
-  bound.wantedLevel = goal.wantedLevel();
-  const auto findLevels = [&] {
-    for (const LinearConditions& conditions : goal.conditions()) {
-      bound.levels.push_back(greatestLevel(conditions, solid, fillings, cells));
-    }
-  };
-  const bool isMeasured = goal.measure(solid).has_value();
-  if (isMeasured) findLevels();
+/// The best body within the cells and, where the goal has a measure, its levels.
+void findBest(const Goal& goal, const Weights& weights, const Moments& solid,
+              const Fillings& fillings, const AdmissibleCells& cells, OptimalBound& bound) {
+  if (goal.measure(solid)) bound.levels = levelsOf(goal, solid, fillings, cells);
   const std::vector<std::size_t> binding = bindingStates(fillings, bound.bestLevel());
   bound.binding = chosen(fillings, binding);
   std::vector<Moments> states;
@@ -271,11 +258,61 @@ OptimalBound optimalBound(const Goal& goal, const Weights& weights, const Moment
   }
   if (weights.volume == 0.0) bound.measure = measure(goal, states);
   bound.violation = largestViolation(goal, states);
+}
+
+} // namespace
+
+bool OptimalBound::isReachable() const {
+  const LevelBound* best = bestLevel();
+  return best != nullptr ? best->reached >= wantedLevel - kReachable : violationInAll <= kReachable;
+}
+
+const LevelBound* OptimalBound::bestLevel() const {
+  const auto best =
+      std::max_element(levels.begin(), levels.end(), [](const LevelBound& a, const LevelBound& b) {
+        return a.reached < b.reached;
+      });
+  return best != levels.end() ? &*best : nullptr;
+}
+
+OptimalBound optimalBound(const Goal& goal, const Weights& weights, const Moments& solid,
+                          const Fillings& fillings, const AdmissibleCells& cells) {
+  OptimalBound bound;
+  bound.wantedLevel = goal.wantedLevel();
+  findBest(goal, weights, solid, fillings, cells, bound);
   findLeastAboutAxis(goal, weights, solid, fillings.front(), cells, bound);
-  if (!isMeasured && bound.violation > OptimalBound::kReachable) findLevels();
+  const bool isMeasured = goal.measure(solid).has_value();
+  if (!isMeasured && bound.violation > OptimalBound::kReachable) {
+    bound.levels = levelsOf(goal, solid, fillings, cells);
+  }
+  bound.massMomentsInAll = bound.massMoments;
+  bound.violationInAll = bound.violation;
   bound.outOfReach = goal.noneCan(
       bound.massMoments, [&] { return achievableCentres(solid, fillings.front().density, cells); });
   return bound;
+}
+
+OptimalBound withBodyWithin(const AdmissibleCells& opened, OptimalBound bound, const Goal& goal,
+                            const Weights& weights, const Moments& solid,
+                            const Fillings& fillings) {
+  OptimalBound other;
+  if (opened.rows() > 0) {
+    findBest(goal, weights, solid, fillings, opened, other);
+    other.levels = std::move(bound.levels);
+  } else {
+    other = bound;
+    const std::vector<Moments> states(fillings.size(), solid);
+    other.massMoments = solid;
+    other.objective = momentObjective(goal, weights, states, 1.0);
+    if (other.measure) other.measure = measure(goal, states);
+    other.violation = largestViolation(goal, states);
+  }
+  other.objectiveAtLeast = bound.objectiveAtLeast;
+  other.massMomentsInAll = bound.massMomentsInAll;
+  other.violationInAll = bound.violationInAll;
+  other.wantedLevel = bound.wantedLevel;
+  other.outOfReach = std::move(bound.outOfReach);
+  return other;
 }
 
 Vector offsetsTowards(const OptimalBound& bound, const Points& vertices, const Points& directions,

@@ -27,6 +27,9 @@ struct OptimalBound {
   std::optional<double> objectiveAtLeast;
   /// Largest of the goal's constraints; > 0: no cavity was found to hold all.
   double violation = 0.0;
+  /// The same of the best body in all cells, when this body is of less, see `withBodyWithin`.
+  Moments massMomentsInAll = Moments::Zero();
+  double violationInAll = 0.0;
   /// Of this body in all its states, where the goal's measure is all that counts.
   std::optional<double> measure;
   /// Of the goal's conditions, in their order; empty where they are not linear, or where this body
@@ -52,6 +55,11 @@ struct OptimalBound {
 /// a level of contents only where the goal has a measure that is all that counts.
 OptimalBound optimalBound(const Goal& goal, const Weights& weights, const Moments& solid,
                           const Fillings& fillings, const AdmissibleCells& cells);
+
+/// The same proofs, but the body is the best within `opened`, a part of the bound's cells: what can
+/// be delivered is measured against it. No rows: it is the solid body.
+OptimalBound withBodyWithin(const AdmissibleCells& opened, OptimalBound bound, const Goal& goal,
+                            const Weights& weights, const Moments& solid, const Fillings& fillings);
 
 /// Offsets with which the inner surface comes nearest to that body's cavity: every point goes in
 /// until hollowing is worth it, as far as its bounds allow. n lengths.

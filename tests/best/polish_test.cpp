@@ -39,7 +39,7 @@ TEST(Polish, MovesTheCutUntilTheConstraintsHold) {
   const Vec3 normal(0.6, 0.0, 0.8);
   quadric[0] = -0.1;
   quadric.segment<3>(1) = normal;
-  const auto found = cavityContour(tree, wall, quadric, 15000);
+  const auto found = cavityContour(openedSet(tree, wall, 15000), quadric);
   ASSERT_TRUE(found);
   const Moments solid = moments(outer.vertices, outer.faces);
   const auto bodyOf = [&](const TriangleMesh& cavity) {

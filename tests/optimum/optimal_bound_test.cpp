@@ -78,6 +78,28 @@ TEST(OptimalBound, OfAStandingBoxIsHollowAboveItsCentreOfMass) {
   EXPECT_LT(std::hypot(worth[1], worth[2]), 0.02 * worth[3]);
 }
 
+TEST(OptimalBound, HasTheBestBodyOfAPartOfTheCells) {
+  const TriangleMesh outer = transformed(box({1, 1, 2}, 4), Mat3::Identity(), Vec3(0.2, 0, 1));
+  const Moments solid = moments(outer.vertices, outer.faces);
+  const auto goal = makePublishedStandGoal(square(1.0), 1.0, {});
+  const AdmissibleCells cells = admissibleCells(treeOf(outer), 0.05);
+  const OptimalBound all = optimalBound(*goal, {}, solid, {{}}, cells);
+  AdmissibleCells low = cells;
+  Eigen::Index count = 0;
+  for (Eigen::Index c = 0; c < cells.rows(); ++c) {
+    if (cells(c, 3) < 1.4 * cells(c, 0)) low.row(count++) = cells.row(c);
+  }
+  low.conservativeResize(count, 10);
+  const OptimalBound part = withBodyWithin(low, all, *goal, {}, solid, {{}});
+  EXPECT_EQ(part.objective, optimalBound(*goal, {}, solid, {{}}, low).objective);
+  EXPECT_GT(part.objective, 1.05 * all.objective);
+  EXPECT_EQ(part.massMomentsInAll, all.massMoments);
+  EXPECT_EQ(part.violationInAll, all.violation);
+  const OptimalBound none = withBodyWithin({}, all, *goal, {}, solid, {{}});
+  EXPECT_EQ(none.massMoments, solid);
+  EXPECT_GT(none.objective, part.objective);
+}
+
 TEST(OptimalBound, OfASpinningBallIsTwoConesAlongTheAxis) {
   const double wall = 0.1;
   const TriangleMesh outer = transformed(sphere(24), Mat3::Identity(), Vec3(0, 0, 1.3));

@@ -1,0 +1,25 @@
+// What a cavity may take: the points behind the walls, without channels too narrow for a ball.
+#pragma once
+
+#include "core/contour/region.h"
+#include "core/optimum/admissible_cells.h"
+
+#include <optional>
+
+namespace massprops {
+
+/// The points at least `wall` behind the surface, opened by a ball as wide as the wall.
+struct OpenedSet {
+  const TriangleTree& surface;  ///< closed, outward
+  double wall;                  ///< a little more than the wanted one: what rounding takes
+  double edge;                  ///< of the cubes that its border is to be made with
+  std::optional<DeepPart> deep; ///< empty: no such ball fits, there are no points
+};
+
+/// `cubes`: about how many of them the border passes through. The surface must outlive the set.
+OpenedSet openedSet(const TriangleTree& surface, double wall, double cubes);
+
+/// What belongs to it of cubes behind the walls.
+RegionParts partsWithin(const OpenedSet& set, const RegionParts& all);
+
+} // namespace massprops

@@ -1,0 +1,54 @@
+// What belongs to a cavity without narrow channels, against closed forms.
+#include "core/contour/opened_set.h"
+
+#include "core/base/angles.h"
+#include "shapes.h"
+
+#include <gtest/gtest.h>
+
+namespace massprops::testing {
+namespace {
+
+TEST(OpenedSet, LosesACollarThinnerThanAWall) {
+  const double wall = 0.05;
+  for (const double room : {0.6, 1.6}) {
+    // A cylinder of radius 0.4 and height 1, around it a disc of radius 1; `room` walls of the disc
+    // may be hollow.
+    const double half = 0.5 * (2.0 + room) * wall;
+    const TriangleMesh outer = revolved({{0.0, 0.5},
+                                         {0.4, 0.5},
+                                         {0.4, half},
+                                         {1.0, half},
+                                         {1.0, -half},
+                                         {0.4, -half},
+                                         {0.4, -0.5},
+                                         {0.0, -0.5}},
+                                        96);
+    const TriangleTree tree(outer.vertices, outer.faces);
+    const RegionParts all = admissibleParts(tree, wall, 40000);
+    const double everything = cellsOf(all).col(0).sum();
+    const double opened = cellsOf(partsWithin(openedSet(tree, wall, 40000), all)).col(0).sum();
+    const double within = kPi * std::pow(0.4 - wall, 2) * (1.0 - 2.0 * wall);
+    const double ring = kPi * (std::pow(1.0 - wall, 2) - std::pow(0.4 - wall, 2)) * room * wall;
+    EXPECT_NEAR(everything, within + ring, 0.01 * (within + ring));
+    if (room < 1.0) {
+      // What is left of the ring is not farther from the cylinder's deep part than 0.9 walls.
+      const double rest = kPi * (0.16 - std::pow(0.4 - wall, 2)) * room * wall;
+      EXPECT_GT(opened, 0.99 * within);
+      EXPECT_LT(opened, 1.01 * (within + rest));
+    } else {
+      EXPECT_NEAR(opened, everything, 1e-3 * everything);
+    }
+  }
+}
+
+TEST(OpenedSet, IsEmptyWhereNoBallFits) {
+  const TriangleMesh outer = box({1.0, 1.0, 0.27}, 3);
+  const TriangleTree tree(outer.vertices, outer.faces);
+  const OpenedSet set = openedSet(tree, 0.1, 20000);
+  EXPECT_FALSE(set.deep);
+  EXPECT_TRUE(partsWithin(set, admissibleParts(tree, 0.1)).parts.empty());
+}
+
+} // namespace
+} // namespace massprops::testing
