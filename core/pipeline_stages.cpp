@@ -294,7 +294,7 @@ Foundation coarsen(const Preparation& model, const Options& options, ProgressBar
     const Weights& weights = options.weights;
     const Fillings states = statesOf(model, options);
     result.bound = optimalBound(goal, weights, model.solidMoments, states, cells);
-    result.deliverable.emplace(deliverableSet(model.surface, model.posed.wall));
+    result.deliverable.emplace(deliverableSet(model.surface, model.posed.wall, behindWalls));
     const AdmissibleCells wide = cellsOf(partsWithin(*result.deliverable, behindWalls));
     if (wide.col(0).sum() < cells.col(0).sum()) {
       result.bound =

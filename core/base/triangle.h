@@ -17,6 +17,13 @@ inline Vec3 areaNormal(const Points& vertices, const Faces& faces, Eigen::Index 
                     vertices.row(faces(f, 2)).transpose());
 }
 
+inline double surfaceArea(const Points& vertices, const Faces& faces) {
+  double area = 0.0;
+  for (Eigen::Index f = 0; f < faces.rows(); ++f)
+    area += 0.5 * areaNormal(vertices, faces, f).norm();
+  return area;
+}
+
 /// Unit normals of a surface's vertices, outward: means of the faces' by their areas. n×3; 0 where
 /// there is no face.
 Points vertexNormals(const Points& vertices, const Faces& faces);

@@ -2,6 +2,7 @@
 
 #include "core/base/stopwatch.h"
 #include "core/base/tolerances.h"
+#include "core/base/triangle.h"
 #include "core/best/polish.h"
 #include "core/contour/cavity_contour.h"
 #include "core/contour/wall_keeping.h"
@@ -9,7 +10,9 @@
 #include "core/reduced/hollow_body.h"
 #include "core/reduced/search_strategy.h"
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace massprops {
 namespace {
@@ -23,6 +26,7 @@ double roundingOf(const CavityTask& task, const Points& points) {
   return points.rows() == 0 ? 0.0 : (delivered(task, points) - points).rowwise().norm().maxCoeff();
 }
 
+/// Not inspected.
 CavityResult resultOf(const CavityTask& task, const TriangleMesh& mesh) {
   CavityResult result;
   result.shape = CavityShape::BestPossible;
@@ -30,10 +34,13 @@ CavityResult resultOf(const CavityTask& task, const TriangleMesh& mesh) {
   result.outer = task.surface.vertices();
   result.inner = delivered(task, mesh.vertices);
   result.cavity.faces = mesh.faces;
-  const Stopwatch time;
-  result.inspection = inspect(result.inner, mesh.faces, task.surface, task.wall, false);
-  result.effort.secondsInspection = time.seconds();
   return result;
+}
+
+void inspect(const CavityTask& task, CavityResult& result) {
+  const Stopwatch time;
+  result.inspection = inspect(result.inner, result.cavity.faces, task.surface, task.wall, false);
+  result.effort.secondsInspection = time.seconds();
 }
 
 /// One for all layers: their mean, which is near the best one where levels of contents count
@@ -44,35 +51,40 @@ Moments quadricOf(const LayeredQuadric& worth) {
   return sum / static_cast<double>(worth.quadrics.size());
 }
 
-/// The contour as the goal would have it, or as it was: what serves best, for triangles that give
-/// way to the wall cost more in one than in another.
+/// The contour as the goal would have it, or as it was: what serves best of those that are clean,
+/// for triangles that give way to the wall cost more in one than in another.
 CavityResult polished(const CavityTask& task, const Moments& quadric, double wall,
                       const CavityContour& found) {
   constexpr double kFarthest = 0.3; // of a cube's edge
-  CavityResult best = resultOf(task, found.contour.mesh);
   int evaluations = 0;
-  const auto offer = [&](const Contour& contour) {
-    CavityResult other = resultOf(task, contour.mesh);
-    const bool isClean = other.inspection.isClean();
-    if (!isClean || (best.inspection.isClean() && !servesBetter(task, other, best))) return;
-    best = std::move(other);
-  };
   const auto adjust = [&](Moving moving, Contour& contour) {
     evaluations += polish(task, quadric, moving, kFarthest * found.edge, contour);
   };
+  std::vector<CavityResult> candidates{resultOf(task, found.contour.mesh)};
   // Creases that move leave the walls' surface a little, and the constraints with it.
   Contour whole = found.contour;
   adjust(Moving::CutAndCreases, whole);
-  if (keepWall(task.surface, wall, whole.mesh).empty()) {
+  if (keepWall(task.surface, wall, whole.mesh, &found.contour.mesh.vertices).empty()) {
     adjust(Moving::CutAlone, whole);
-    offer(whole);
+    candidates.push_back(resultOf(task, whole.mesh));
   }
   Contour inside = found.contour;
   adjust(Moving::CutAlone, inside);
-  offer(inside);
-  best.effort.evaluations = evaluations;
-  best.stopReason = "the limit's cavity, adjusted on its triangles";
-  return best;
+  candidates.push_back(resultOf(task, inside.mesh));
+  std::stable_sort(
+      candidates.begin(), candidates.end(),
+      [&](const CavityResult& a, const CavityResult& b) { return servesBetter(task, a, b); });
+  CavityResult* best = nullptr;
+  for (CavityResult& candidate : candidates) {
+    inspect(task, candidate);
+    if (best == nullptr) best = &candidate;
+    if (!candidate.inspection.isClean()) continue;
+    best = &candidate;
+    break;
+  }
+  best->effort.evaluations = evaluations;
+  best->stopReason = "the limit's cavity, adjusted on its triangles";
+  return std::move(*best);
 }
 
 bool leavesRoom(const TriangleTree& surface, double wall) {
@@ -83,9 +95,16 @@ bool leavesRoom(const TriangleTree& surface, double wall) {
 
 } // namespace
 
-OpenedSet deliverableSet(const TriangleTree& surface, double wall) {
-  constexpr double kCubes = 40000.0;
-  return openedSet(surface, wall, kCubes);
+OpenedSet deliverableSet(const TriangleTree& surface, double wall, const RegionParts& behindWall) {
+  constexpr double kFewest = 15000.0;
+  constexpr double kMost = 50000.0;
+  constexpr double kAcross = 9.0; // a room of the mean width
+  constexpr double kLeastEdge = 1.0 / 1000.0;
+  const double area = borderArea(behindWall);
+  const double width = 2.0 * cellsOf(behindWall).col(0).sum() / area;
+  const double edge =
+      std::clamp(width / kAcross, edgeOfCubes(area, kMost), edgeOfCubes(area, kFewest));
+  return openedSet(surface, wall, std::max(edge, kLeastEdge));
 }
 
 CavityResult bestPossibleCavity(const CavityTask& task, const OpenedSet& deliverable) {
@@ -97,7 +116,7 @@ CavityResult bestPossibleCavity(const CavityTask& task, const OpenedSet& deliver
   for (int round = 1; round <= kRounds; ++round) {
     const std::optional<CavityContour> found =
         round == 1 ? cavityContour(deliverable, quadric)
-                   : cavityContour(deliverableSet(task.surface, wall), quadric);
+                   : cavityContour(openedSet(task.surface, wall, deliverable.edge), quadric);
     if (!found || found->contour.mesh.faces.rows() == 0) {
       result = {};
       // Where there is room the limit's body is the solid one.

@@ -20,14 +20,6 @@ constexpr double kNarrow = 0.5;
 /// reached.
 constexpr double kReach = 1.8;
 
-double areaOf(const TriangleTree& surface) {
-  double area = 0.0;
-  for (Eigen::Index f = 0; f < surface.faces().rows(); ++f) {
-    area += 0.5 * areaNormal(surface.vertices(), surface.faces(), f).norm();
-  }
-  return area;
-}
-
 /// Takes off what is farther from the deep part than its reach.
 class Opening {
 public:
@@ -95,11 +87,11 @@ private:
 
 } // namespace
 
-OpenedSet openedSet(const TriangleTree& surface, double wall, double cubes) {
-  // A border of area A passes through about 1.5 A/h² cubes.
-  constexpr double kCubesPerSquare = 1.5;
-  constexpr double kLeastEdge = 1.0 / 1000.0;
-  const double edge = std::max(std::sqrt(kCubesPerSquare * areaOf(surface) / cubes), kLeastEdge);
+double edgeOfCubes(double area, double count) {
+  return std::sqrt(kCubesPerArea * area / count);
+}
+
+OpenedSet openedSet(const TriangleTree& surface, double wall, double edge) {
   OpenedSet set{surface, (1.0 + kMargin) * wall, edge, {}};
   const double narrow = kNarrow * wall;
   constexpr double kCoarser = 1.4; // nobody sees it

@@ -16,8 +16,11 @@ struct OpenedSet {
   std::optional<DeepPart> deep; ///< empty: no such ball fits, there are no points
 };
 
-/// `cubes`: about how many of them the border passes through. The surface must outlive the set.
-OpenedSet openedSet(const TriangleTree& surface, double wall, double cubes);
+/// The edge of cubes about so many of which a surface passes through.
+double edgeOfCubes(double area, double count);
+
+/// The surface must outlive the set. `edge`: of the cubes.
+OpenedSet openedSet(const TriangleTree& surface, double wall, double edge);
 
 /// What belongs to it of cubes behind the walls.
 RegionParts partsWithin(const OpenedSet& set, const RegionParts& all);

@@ -10,7 +10,7 @@ namespace {
 
 bool staysSound(const Points& vertices, const Faces& faces, IndexRange corners, const Vec3& x) {
   constexpr double kLeastCosine = 0.34;
-  constexpr double kSmallAngle = 10.0;
+  constexpr double kSmallAngle = 6.0;
   return std::all_of(corners.begin(), corners.end(), [&](int h) {
     const Vec3 a = vertices.row(faces(h / 3, h % 3)).transpose();
     const int next = nextHalfEdge(h);

@@ -13,8 +13,10 @@ namespace {
 /// By how much the walls of a cavity's faces are too thin; measured anew where vertices have moved.
 class Shortfall {
 public:
-  Shortfall(const TriangleTree& surface, double wall, const Faces& faces)
-      : surface_(surface), wall_(wall), faces_(faces), ofFace_(Vector::Zero(faces.rows())) {}
+  Shortfall(const TriangleTree& surface, double wall, const Faces& faces, const Points* kept)
+      : surface_(surface), wall_(wall), faces_(faces), ofFace_(Vector::Zero(faces.rows())) {
+    if (kept != nullptr) last_ = *kept;
+  }
 
   /// For every vertex the largest of the faces around it.
   Vector measure(const Points& vertices) {
@@ -55,12 +57,13 @@ private:
 
 } // namespace
 
-std::vector<int> keepWall(const TriangleTree& surface, double wall, TriangleMesh& cavity) {
-  constexpr int kRounds = 8;
+std::vector<int> keepWall(const TriangleTree& surface, double wall, TriangleMesh& cavity,
+                          const Points* kept) {
+  constexpr int kRounds = 12;
   constexpr double kMore = 1.05; // than what is missing, for the direction turns on the way
-  constexpr double kGrowth = 0.1;
-  constexpr double kLeast = 1e-6; // of the wall
-  Shortfall shortfall(surface, wall, cavity.faces);
+  constexpr double kGrowth = 0.5;
+  constexpr double kLeast = 1e-4; // of the wall
+  Shortfall shortfall(surface, wall, cavity.faces, kept);
   std::vector<int> thin;
   for (int round = 0; round <= kRounds; ++round) {
     const Vector missing = shortfall.measure(cavity.vertices);

@@ -187,6 +187,18 @@ AdmissibleCells cellsOf(const RegionParts& region) {
   return rows;
 }
 
+double borderArea(const RegionParts& region) {
+  int cells = 0;
+  int last = kNone;
+  for (const RegionPart& part : region.parts) {
+    const bool isHollow = part.depth + 0.25 * region.edge > region.wall;
+    if (part.level > 0 || part.cell == last || !isHollow) continue;
+    last = part.cell;
+    ++cells;
+  }
+  return cells * region.edge * region.edge / kCubesPerArea;
+}
+
 AdmissibleCells admissibleCells(const TriangleTree& surface, double wall, int cells) {
   return cellsOf(admissibleParts(surface, wall, cells));
 }

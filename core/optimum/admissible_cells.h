@@ -32,6 +32,12 @@ RegionParts admissibleParts(const TriangleTree& surface, double wall, int cells 
 /// The border is taken as a plane in each part of a cell.
 AdmissibleCells cellsOf(const RegionParts& region);
 
+/// A surface of area A passes through about so many times A/h² cubes of edge h.
+constexpr double kCubesPerArea = 1.5;
+
+/// About the area of what bounds the region, less where it is narrower than a cell.
+double borderArea(const RegionParts& region);
+
 /// Cubes, about `cells` of them in the model's bounding box. Those at the border of the region are
 /// divided once more, and the border is taken as a plane in each part: the region comes out too
 /// large at its edges, if anything, never too small.

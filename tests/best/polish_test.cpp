@@ -1,6 +1,7 @@
 // The cut moves until the triangles keep the goal's constraints.
 #include "core/best/polish.h"
 
+#include "core/base/triangle.h"
 #include "core/contour/cavity_contour.h"
 #include "core/query/self_intersection.h"
 #include "shapes.h"
@@ -39,7 +40,8 @@ TEST(Polish, MovesTheCutUntilTheConstraintsHold) {
   const Vec3 normal(0.6, 0.0, 0.8);
   quadric[0] = -0.1;
   quadric.segment<3>(1) = normal;
-  const auto found = cavityContour(openedSet(tree, wall, 15000), quadric);
+  const auto found = cavityContour(
+      openedSet(tree, wall, edgeOfCubes(surfaceArea(outer.vertices, outer.faces), 15000)), quadric);
   ASSERT_TRUE(found);
   const Moments solid = moments(outer.vertices, outer.faces);
   const auto bodyOf = [&](const TriangleMesh& cavity) {

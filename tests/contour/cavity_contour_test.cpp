@@ -41,7 +41,8 @@ TEST(CavityContour, OfABoxIsTheSmallerBoxInFewTriangles) {
   const TriangleMesh outer = box({1.0, 1.5, 2.0}, 3);
   const TriangleTree tree(outer.vertices, outer.faces);
   const double wall = 0.05;
-  const auto cavity = cavityContour(openedSet(tree, wall, 20000), {});
+  const auto cavity = cavityContour(
+      openedSet(tree, wall, edgeOfCubes(surfaceArea(outer.vertices, outer.faces), 20000)), {});
   ASSERT_TRUE(cavity);
   const TriangleMesh& mesh = cavity->contour.mesh;
   expectCavity(tree, wall, mesh);
@@ -54,7 +55,8 @@ TEST(CavityContour, FillsAlmostAllOfWhatABallLeaves) {
   const TriangleMesh outer = sphere(30);
   const TriangleTree tree(outer.vertices, outer.faces);
   const double wall = 0.05;
-  const auto cavity = cavityContour(openedSet(tree, wall, 40000), {});
+  const auto cavity = cavityContour(
+      openedSet(tree, wall, edgeOfCubes(surfaceArea(outer.vertices, outer.faces), 40000)), {});
   ASSERT_TRUE(cavity);
   expectCavity(tree, wall, cavity->contour.mesh);
   const double volume = moments(outer.vertices, outer.faces)[0] * std::pow(1.0 - wall, 3);
@@ -84,7 +86,8 @@ TEST(CavityContour, LeavesOutChannelsNarrowerThanAWall) {
     profile.front().x() = profile.back().x() = 0.0;
     const TriangleMesh outer = revolved(profile, 48);
     const TriangleTree tree(outer.vertices, outer.faces);
-    const auto cavity = cavityContour(openedSet(tree, wall, 40000), {});
+    const auto cavity = cavityContour(
+        openedSet(tree, wall, edgeOfCubes(surfaceArea(outer.vertices, outer.faces), 40000)), {});
     ASSERT_TRUE(cavity);
     expectCavity(tree, wall, cavity->contour.mesh);
     const auto rooms =
@@ -105,7 +108,9 @@ TEST(CavityContour, KeepsItsPromisesForAnyQuadric) {
     for (double& term : quadric) term = normal(random);
     quadric.tail<6>() *= 2.0;
     const double wall = 0.01 * diagonal;
-    const auto cavity = cavityContour(openedSet(tree, wall, 15000), quadric);
+    const auto cavity = cavityContour(
+        openedSet(tree, wall, edgeOfCubes(surfaceArea(outer.vertices, outer.faces), 15000)),
+        quadric);
     ASSERT_TRUE(cavity);
     if (cavity->contour.mesh.faces.rows() > 0) expectCavity(tree, wall, cavity->contour.mesh);
   }
@@ -114,7 +119,8 @@ TEST(CavityContour, KeepsItsPromisesForAnyQuadric) {
 TEST(CavityContour, IsEmptyWhereThereIsNoRoom) {
   const TriangleMesh outer = box({1.0, 1.0, 0.2}, 3);
   const TriangleTree tree(outer.vertices, outer.faces);
-  const auto cavity = cavityContour(openedSet(tree, 0.11, 20000), {});
+  const auto cavity = cavityContour(
+      openedSet(tree, 0.11, edgeOfCubes(surfaceArea(outer.vertices, outer.faces), 20000)), {});
   ASSERT_TRUE(cavity);
   EXPECT_EQ(cavity->contour.mesh.faces.rows(), 0);
 }

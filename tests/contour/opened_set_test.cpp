@@ -2,6 +2,7 @@
 #include "core/contour/opened_set.h"
 
 #include "core/base/angles.h"
+#include "core/base/triangle.h"
 #include "shapes.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +28,12 @@ TEST(OpenedSet, LosesACollarThinnerThanAWall) {
     const TriangleTree tree(outer.vertices, outer.faces);
     const RegionParts all = admissibleParts(tree, wall, 40000);
     const double everything = cellsOf(all).col(0).sum();
-    const double opened = cellsOf(partsWithin(openedSet(tree, wall, 40000), all)).col(0).sum();
+    const double opened =
+        cellsOf(partsWithin(openedSet(tree, wall,
+                                      edgeOfCubes(surfaceArea(outer.vertices, outer.faces), 40000)),
+                            all))
+            .col(0)
+            .sum();
     const double within = kPi * std::pow(0.4 - wall, 2) * (1.0 - 2.0 * wall);
     const double ring = kPi * (std::pow(1.0 - wall, 2) - std::pow(0.4 - wall, 2)) * room * wall;
     EXPECT_NEAR(everything, within + ring, 0.01 * (within + ring));
@@ -45,7 +51,8 @@ TEST(OpenedSet, LosesACollarThinnerThanAWall) {
 TEST(OpenedSet, IsEmptyWhereNoBallFits) {
   const TriangleMesh outer = box({1.0, 1.0, 0.27}, 3);
   const TriangleTree tree(outer.vertices, outer.faces);
-  const OpenedSet set = openedSet(tree, 0.1, 20000);
+  const OpenedSet set =
+      openedSet(tree, 0.1, edgeOfCubes(surfaceArea(outer.vertices, outer.faces), 20000));
   EXPECT_FALSE(set.deep);
   EXPECT_TRUE(partsWithin(set, admissibleParts(tree, 0.1)).parts.empty());
 }
