@@ -39,9 +39,4 @@ std::optional<Certificate> certificate(const Vec3& normal, double limit, const M
                                        const Filling& filling, const TriangleTree& surface,
                                        double wall);
 
-/// At least the integral of the positive part of q over the points that keep the wall, and below
-/// `enough` if the effort reaches.
-double positivePartBound(const LayeredQuadric& q, const TriangleTree& surface, double wall,
-                         double enough);
-
 } // namespace massprops
