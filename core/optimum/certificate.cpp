@@ -8,25 +8,28 @@
 namespace massprops {
 namespace {
 
-/// The proof with its margin, if that is positive.
-std::optional<Certificate> withMargin(Certificate proof, const Moments& solid,
-                                      const TriangleTree& surface, double wall) {
+/// Positive: no body has less than this sum of the functionals.
+double marginOf(const Certificate& proof, const Moments& solid, const TriangleTree& surface,
+                double wall, std::size_t mostCubes) {
   const Eigen::Matrix<double, 11, 1> w = proof.functionals.rowwise().sum(); // of the solid
   const Eigen::Matrix<double, 11, 1> size = proof.functionals.cwiseAbs().rowwise().sum();
   const double rounding = kOutwards * (size.head<10>().dot(solid.cwiseAbs()) + size[10]);
   const double ofSolid = w.head<10>().dot(solid) + w[10] - rounding;
-  if (ofSolid <= 0.0) return std::nullopt;
+  if (ofSolid <= 0.0) return ofSolid;
   const LayeredQuadric worth = worthOfHollowing(proof.functionals, proof.fillings);
-  proof.margin = ofSolid - positivePartBound(worth, surface, wall, ofSolid);
+  return ofSolid - positivePartBound(worth, surface, wall, ofSolid, mostCubes);
+}
+
+/// The proof with its margin, if that is positive.
+std::optional<Certificate> withMargin(Certificate proof, const Moments& solid,
+                                      const TriangleTree& surface, double wall) {
+  proof.margin = marginOf(proof, solid, surface, wall, kMostCubes);
   return proof.margin > 0.0 ? std::optional(std::move(proof)) : std::nullopt;
 }
 
-} // namespace
-
-std::optional<Certificate> certificate(const LinearConditions& conditions, double wantedLevel,
-                                       const LevelBound& bound, const Moments& solid,
-                                       const Fillings& fillings, const TriangleTree& surface,
-                                       double wall) {
+/// What there is to prove.
+Certificate claim(const LinearConditions& conditions, double level, const LevelBound& bound,
+                  const Fillings& fillings) {
   Certificate result;
   std::vector<Eigen::Index> counting;
   for (Eigen::Index s = 0; s < bound.multipliers.cols(); ++s) {
@@ -35,9 +38,44 @@ std::optional<Certificate> certificate(const LinearConditions& conditions, doubl
     result.fillings.push_back(fillings[static_cast<std::size_t>(s)]);
   }
   result.multipliers = bound.multipliers(Eigen::all, counting);
-  result.rows = conditions.atZero + wantedLevel * conditions.slopes;
+  result.rows = conditions.atZero + level * conditions.slopes;
   result.functionals = result.rows.transpose() * result.multipliers;
-  return withMargin(std::move(result), solid, surface, wall);
+  return result;
+}
+
+/// By how much the sum of the conditions grows with the level, for the bound's best body.
+double slopeOf(const LinearConditions& conditions, const LevelBound& bound) {
+  double slope = 0.0;
+  for (Eigen::Index s = 0; s < bound.multipliers.cols(); ++s) {
+    const AffineRow sum = bound.multipliers.col(s).transpose() * conditions.slopes;
+    slope += valueOf(sum, bound.states[static_cast<std::size_t>(s)]);
+  }
+  return slope;
+}
+
+} // namespace
+
+std::optional<Certificate> certificate(const LinearConditions& conditions, double wantedLevel,
+                                       const LevelBound& bound, const Moments& solid,
+                                       const Fillings& fillings, const TriangleTree& surface,
+                                       double wall) {
+  return withMargin(claim(conditions, wantedLevel, bound, fillings), solid, surface, wall);
+}
+
+std::optional<double> provedLevel(const LinearConditions& conditions, const LevelBound& bound,
+                                  const Moments& solid, const Fillings& fillings,
+                                  const TriangleTree& surface, double wall, std::size_t mostCubes) {
+  constexpr int kMostSteps = 4;
+  constexpr double kBeyond = 1.1; // of the step: another subdivision is not quite as good
+  const double slope = slopeOf(conditions, bound);
+  double level = bound.level;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const double margin =
+        marginOf(claim(conditions, level, bound, fillings), solid, surface, wall, mostCubes);
+    if (margin > 0.0) return level;
+    level -= kBeyond * margin / slope;
+  }
+  return std::nullopt;
 }
 
 std::optional<Certificate> certificate(const Vec3& normal, double limit, const Moments& solid,

@@ -7,6 +7,7 @@
 #include "core/physics/filling.h"
 #include "core/query/triangle_tree.h"
 
+#include <cstddef>
 #include <optional>
 
 namespace massprops {
@@ -33,6 +34,13 @@ std::optional<Certificate> certificate(const LinearConditions& conditions, doubl
                                        const LevelBound& bound, const Moments& solid,
                                        const Fillings& fillings, const TriangleTree& surface,
                                        double wall);
+
+/// A level that no body exceeds, proved for the multipliers of the bound and hardly above the least
+/// one that this effort proves, which is that of two proofs as a rule. Empty: not proved.
+/// `mostCubes`: as in `positivePartBound`.
+std::optional<double> provedLevel(const LinearConditions& conditions, const LevelBound& bound,
+                                  const Moments& solid, const Fillings& fillings,
+                                  const TriangleTree& surface, double wall, std::size_t mostCubes);
 
 /// The proof that no centre of mass is outside of a half-space, w being limit m − normal·S.
 std::optional<Certificate> certificate(const Vec3& normal, double limit, const Moments& solid,

@@ -2,6 +2,7 @@
 
 #include "core/base/cube_cut.h"
 #include "core/base/parallel.h"
+#include "core/base/triangle.h"
 #include "core/query/point_in_mesh.h"
 
 #include <algorithm>
@@ -13,15 +14,18 @@
 namespace massprops {
 namespace {
 
-/// Of the cubes whose distance is asked for, each about a microsecond.
-constexpr std::size_t kMostCubes = 1500000;
 constexpr int kFirstAlongASide = 16;
+/// Of what a cube at the border contributes: dividing it may tell that much, whatever the rest.
+constexpr double kLeastSlack = 0.1;
 
 struct Cube {
   Vec3 centre;
   double edge;
-  double upper = 0.0; ///< of its contribution
-  double slack = 0.0; ///< by how much that may be too large; 0: nothing to be gained by dividing
+  double upper = 0.0;    ///< of its contribution
+  double slack = 0.0;    ///< by how much that may be too large; 0: nothing to be gained by dividing
+  int nearFace = -1;     ///< one that is near its centre, if any is known
+  bool isInside = false; ///< whether it is known that its centre is
+  double clearance = 0.0; ///< at most the distance of its centre from the surface
 };
 
 /// A quadric over a box. What is linear in each coordinate lies below its values at the corners,
@@ -81,13 +85,26 @@ Bounds boundsOver(const LayeredQuadric& q, const Cube& cube) {
   return all;
 }
 
+double halfDiagonal(const Cube& cube) {
+  return 0.5 * std::sqrt(3.0) * cube.edge;
+}
+
+/// At least the share of a cube that lies farther along a unit vector from its centre than `depth`.
+double shareBeyond(const Vec3& away, double depth, double edge) {
+  // The cut turns planes off the cube's axes: by no more than this at its corners.
+  constexpr double kTurned = 0.5 * 3.0 * 0.01;
+  const double turned =
+      std::min(kTurned, 0.5 * (Vec3::Constant(0.01) - away.cwiseAbs()).cwiseMax(0.0).sum());
+  return cubeCut(away, depth / edge - turned - kOutwards).volume;
+}
+
 class UpperBound {
 public:
   UpperBound(const LayeredQuadric& quadric, const TriangleTree& surface, double wall)
       : quadric_(quadric), surface_(surface), inside_(surface), wall_(wall) {}
 
   /// Rounds of division, each of the cubes with the most to gain.
-  double refine(double enough) {
+  double refine(double enough, std::size_t mostCubes) {
     std::vector<Cube> cubes = first();
     std::size_t asked = 0;
     double decided = 0.0;
@@ -98,12 +115,12 @@ public:
       for (const Cube& cube : cubes) (cube.slack > 0.0 ? open : decided) += cube.upper;
       open += waitingSum();
       const double total = (decided + open) * (1.0 + kOutwards);
-      if (total <= enough || asked > kMostCubes) return total;
+      if (total <= enough || asked >= mostCubes) return total;
       for (const Cube& cube : cubes) {
         if (cube.slack > 0.0) waiting_.push_back(cube);
       }
       if (waiting_.empty()) return total;
-      cubes = mostPromising();
+      cubes = mostPromising(mostCubes - asked);
     }
   }
 
@@ -130,8 +147,8 @@ private:
     return sum;
   }
 
-  /// The parts of the cubes that hold most of the slack.
-  std::vector<Cube> mostPromising() {
+  /// The parts of the cubes that hold most of the slack, about `mostParts` of them at most.
+  std::vector<Cube> mostPromising(std::size_t mostParts) {
     constexpr double kMost = 0.9;
     std::sort(waiting_.begin(), waiting_.end(),
               [](const Cube& a, const Cube& b) { return a.slack < b.slack; });
@@ -139,14 +156,18 @@ private:
     for (const Cube& cube : waiting_) slack += cube.slack;
     std::vector<Cube> parts;
     double taken = 0.0;
-    while (!waiting_.empty() && taken < kMost * slack) {
+    while (!waiting_.empty() && taken < kMost * slack && parts.size() < mostParts) {
       const Cube cube = waiting_.back();
       waiting_.pop_back();
       taken += cube.slack;
       for (int corner = 0; corner < 8; ++corner) {
         const Vec3 step((corner & 1) != 0 ? 0.25 : -0.25, (corner & 2) != 0 ? 0.25 : -0.25,
                         (corner & 4) != 0 ? 0.25 : -0.25);
-        parts.push_back({cube.centre + cube.edge * step, 0.5 * cube.edge});
+        Cube part{cube.centre + cube.edge * step, 0.5 * cube.edge};
+        part.nearFace = cube.nearFace;
+        part.isInside = cube.isInside;
+        part.clearance = cube.clearance - halfDiagonal(part);
+        parts.push_back(part);
       }
     }
     return parts;
@@ -164,31 +185,67 @@ private:
   void evaluate(Cube& cube) const {
     const Bounds q = boundsOver(quadric_, cube);
     if (q.greatest <= 0.0) return;
-    const double half = 0.5 * std::sqrt(3.0) * cube.edge;
+    const double half = halfDiagonal(cube);
     const double volume = cube.edge * cube.edge * cube.edge;
     const double wall = wall_ * (1.0 - kOutwards);
-    const TriangleTree::Hit hit = surface_.nearest(cube.centre);
-    const double distance = std::sqrt(hit.squaredDistance);
-    if (distance * (1.0 + kOutwards) + half <= wall) return;
-    if (distance * (1.0 - kOutwards) > half && !inside_.contains(cube.centre)) return;
     cube.upper = q.meanOfPositive * volume;
     cube.slack = q.slack * volume;
-    if (distance * (1.0 - kOutwards) >= wall + half) return;
-    // Nothing within a wall of the nearest point is hollow: as seen from the cube, at least what
-    // is nearer than the plane in which the ball around that point leaves the cube's own ball.
-    const double depth = wall > half ? std::sqrt(wall * wall - half * half) : -half;
-    double share = 1.0;
-    if (distance > half - depth && distance > 0.0) {
-      const Vec3 away = (cube.centre - hit.point) / distance;
-      // The cut turns planes off the cube's axes: by no more than this at its corners.
-      constexpr double kTurned = 0.5 * 3.0 * 0.01;
-      const double turned =
-          std::min(kTurned, 0.5 * (Vec3::Constant(0.01) - away.cwiseAbs()).cwiseMax(0.0).sum());
-      share = cubeCut(away, (depth - distance) / cube.edge - turned - kOutwards).volume;
+    const double far = wall_ + half;
+    if (cube.isInside && cube.clearance > far) return;
+    const TriangleTree::Hit hit = surface_.nearest(
+        cube.centre, cube.isInside ? far * far : std::numeric_limits<double>::infinity(),
+        cube.nearFace);
+    const double distance = std::sqrt(hit.squaredDistance);
+    cube.clearance = distance * (1.0 - kOutwards);
+    if (hit.face < 0) return;
+    cube.nearFace = hit.face;
+    if (!cube.isInside && cube.clearance > half) {
+      cube.isInside = inside_.contains(cube.centre, hit);
+      if (!cube.isInside) cube.upper = cube.slack = 0.0;
     }
-    const double upper = std::min(cube.upper, q.greatest * volume * (share + kOutwards));
-    cube.slack = share > 0.0 ? upper : 0.0;
-    cube.upper = upper;
+    if (distance * (1.0 + kOutwards) + half <= wall) cube.upper = cube.slack = 0.0;
+    if (cube.upper == 0.0 || cube.clearance >= wall + half || distance == 0.0) return;
+    const Vec3 away = (cube.centre - hit.point) / distance;
+    const double gap = witnessGap(cube, hit, away);
+    const double depth = gap < wall ? std::sqrt(wall * wall - gap * gap) : -half;
+    if (distance + depth <= half) { // beyond the surface the cube may be hollow again
+      cube.slack = cube.upper;
+      return;
+    }
+    // Nothing within a wall of the witnesses is hollow.
+    const double share = shareBeyond(away, depth - distance, cube.edge);
+    const double wished = cube.upper * shareBeyond(away, wall - distance, cube.edge);
+    cube.upper = std::min(cube.upper, q.greatest * volume * (share + kOutwards));
+    cube.slack = share > 0.0 ? std::max(cube.upper - wished, kLeastSlack * cube.upper) : 0.0;
+  }
+
+  /// How far, across the way from the nearest point to the centre, points of the cube can be from
+  /// those of the surface that are known to be there: the nearest point's own triangle, if that is
+  /// where the way ends, or else that point alone.
+  double witnessGap(const Cube& cube, const TriangleTree::Hit& hit, const Vec3& away) const {
+    // The corner that is least off the plane across the way is farthest from its foot.
+    const Vec3 n = away.cwiseAbs();
+    const double least = 0.5 * cube.edge * std::max(0.0, 2.0 * n.maxCoeff() - n.sum());
+    const double half = halfDiagonal(cube);
+    const double widest = std::sqrt(half * half - least * least);
+    const auto corner = [&](int k) {
+      return Vec3(surface_.vertices().row(surface_.faces()(hit.face, k % 3)).transpose());
+    };
+    const Vec3 normal = areaNormal(corner(0), corner(1), corner(2));
+    const double size = (corner(1) - corner(0)).norm() * (corner(2) - corner(0)).norm();
+    constexpr double kThin = 1e-5;
+    constexpr double kParallel = 1e-10; // less than distances are known to
+    if (normal.norm() < kThin * size || normal.cross(away).norm() > kParallel * normal.norm()) {
+      return widest;
+    }
+    // From the foot the triangle reaches this share of the way to the cube's farthest points.
+    double reach = 1.0;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 across = normal.cross(corner(k + 1) - corner(k)).normalized();
+      const double room = across.dot(hit.point - corner(k));
+      reach = std::min(reach, room / (0.5 * cube.edge * across.cwiseAbs().sum()));
+    }
+    return widest * (1.0 - std::max(0.0, reach));
   }
 
   const LayeredQuadric& quadric_;
@@ -201,8 +258,8 @@ private:
 } // namespace
 
 double positivePartBound(const LayeredQuadric& q, const TriangleTree& surface, double wall,
-                         double enough) {
-  return UpperBound(q, surface, wall).refine(enough);
+                         double enough, std::size_t mostCubes) {
+  return UpperBound(q, surface, wall).refine(enough, mostCubes);
 }
 
 } // namespace massprops

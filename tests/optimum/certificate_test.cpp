@@ -17,9 +17,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace massprops::testing {
 namespace {
@@ -108,6 +110,21 @@ TEST_F(Proof, IsNotFoundForWhatABodyReaches) {
 TEST_F(Proof, BoundsTheBestBodyCloselyByDuality) {
   EXPECT_NEAR(std::atan(bound_.level) * kDegrees, best(), 0.02);
   EXPECT_GE(bound_.level, bound_.reached);
+}
+
+TEST_F(Proof, OfALevelLiesHardlyAboveTheBest) {
+  const double ofSolid = std::atan(levelReached(conditions_, solid_)) * kDegrees;
+  const double gain = best() - ofSolid;
+  for (const auto& [cubes, share] : {std::pair(300000, 0.02), std::pair(1000000, 0.005)}) {
+    const auto level = provedLevel(conditions_, bound_, solid_, {{}}, surface_, posed_.wall,
+                                   static_cast<std::size_t>(cubes));
+    ASSERT_TRUE(level);
+    const double angle = std::atan(*level) * kDegrees;
+    // Cells take the border for planes: what they tell lies within a thousandth of the gain.
+    EXPECT_GT(angle, best() - 0.001 * gain);
+    EXPECT_LT(angle, best() + share * gain);
+    EXPECT_TRUE(prove(angle));
+  }
 }
 
 TEST(Certificate, IsOnlyFoundForHalfSpacesThatHoldAllCentres) {
