@@ -1,18 +1,23 @@
 #include "samples.h"
 
-#include <CGAL/IO/PLY.h>
+#include <CGAL/IO/polygon_soup_io.h>
 #include <CGAL/Simple_cartesian.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <stdexcept>
 #include <vector>
 
 namespace massprops::testing {
 
 TriangleMesh sampleMesh(const std::string& name) {
-  const std::string path = std::string(MASSPROPS_SAMPLE_DIR) + "/" + name + ".ply";
+  return meshFile(std::string(MASSPROPS_SAMPLE_DIR) + "/" + name + ".ply");
+}
+
+TriangleMesh meshFile(const std::string& path) {
   std::vector<CGAL::Simple_cartesian<double>::Point_3> points;
   std::vector<std::vector<int>> polygons;
-  if (!CGAL::IO::read_PLY(path, points, polygons, CGAL::parameters::use_binary_mode(true))) {
+  if (!CGAL::IO::read_polygon_soup(path, points, polygons)) {
     throw std::runtime_error("cannot read " + path);
   }
   TriangleMesh mesh;
@@ -27,6 +32,15 @@ TriangleMesh sampleMesh(const std::string& name) {
     }
   }
   return mesh;
+}
+
+std::vector<std::string> sampleFiles() {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(MASSPROPS_SAMPLE_DIR)) {
+    if (entry.path().extension() == ".ply") files.push_back(entry.path().string());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 } // namespace massprops::testing
