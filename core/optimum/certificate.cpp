@@ -8,16 +8,22 @@
 namespace massprops {
 namespace {
 
+enum class Wanted {
+  Any,     ///< that is positive
+  Greatest ///< that the effort allows
+};
+
 /// Positive: no body has less than this sum of the functionals.
 double marginOf(const Certificate& proof, const Moments& solid, const TriangleTree& surface,
-                double wall, std::size_t mostCubes) {
+                double wall, std::size_t mostCubes, Wanted wanted = Wanted::Any) {
   const Eigen::Matrix<double, 11, 1> w = proof.functionals.rowwise().sum(); // of the solid
   const Eigen::Matrix<double, 11, 1> size = proof.functionals.cwiseAbs().rowwise().sum();
   const double rounding = kOutwards * (size.head<10>().dot(solid.cwiseAbs()) + size[10]);
   const double ofSolid = w.head<10>().dot(solid) + w[10] - rounding;
   if (ofSolid <= 0.0) return ofSolid;
   const LayeredQuadric worth = worthOfHollowing(proof.functionals, proof.fillings);
-  return ofSolid - positivePartBound(worth, surface, wall, ofSolid, mostCubes);
+  const double enough = wanted == Wanted::Any ? ofSolid : 0.0;
+  return ofSolid - positivePartBound(worth, surface, wall, enough, mostCubes);
 }
 
 /// The proof with its margin, if that is positive.
@@ -65,15 +71,24 @@ std::optional<Certificate> certificate(const LinearConditions& conditions, doubl
 std::optional<double> provedLevel(const LinearConditions& conditions, const LevelBound& bound,
                                   const Moments& solid, const Fillings& fillings,
                                   const TriangleTree& surface, double wall, std::size_t mostCubes) {
-  constexpr int kMostSteps = 4;
-  constexpr double kBeyond = 1.1; // of the step: another subdivision is not quite as good
+  // Of the step by which the bound would be exact: another subdivision is not quite as good.
+  constexpr double kBeyond = 1.1, kWithin = 0.9;
+  constexpr int kMostSteps = 3;
   const double slope = slopeOf(conditions, bound);
+  const auto marginAt = [&](double level, Wanted wanted) {
+    return marginOf(claim(conditions, level, bound, fillings), solid, surface, wall, mostCubes,
+                    wanted);
+  };
   double level = bound.level;
+  double margin = marginAt(level, Wanted::Greatest);
+  if (margin > 0.0) {
+    const double lower = level - kWithin * margin / slope;
+    return marginAt(lower, Wanted::Any) > 0.0 ? lower : level;
+  }
   for (int step = 0; step < kMostSteps; ++step) {
-    const double margin =
-        marginOf(claim(conditions, level, bound, fillings), solid, surface, wall, mostCubes);
-    if (margin > 0.0) return level;
     level -= kBeyond * margin / slope;
+    margin = marginAt(level, Wanted::Any);
+    if (margin > 0.0) return level;
   }
   return std::nullopt;
 }

@@ -36,7 +36,8 @@ std::optional<Certificate> certificate(const LinearConditions& conditions, doubl
                                        double wall);
 
 /// A level that no body exceeds, proved for the multipliers of the bound and hardly above the least
-/// one that this effort proves, which is that of two proofs as a rule. Empty: not proved.
+/// one that this effort proves, which is that of two proofs as a rule. It may lie below the
+/// bound's, which takes the border of what may be hollow for planes. Empty: not proved.
 /// `mostCubes`: as in `positivePartBound`.
 std::optional<double> provedLevel(const LinearConditions& conditions, const LevelBound& bound,
                                   const Moments& solid, const Fillings& fillings,
