@@ -204,6 +204,9 @@ void considerBestPossible(const Preparation& model, const Foundation& foundation
   const std::string reason = reasonForBestPossible(options, found);
   if (reason.empty()) return;
   bar.show(Schedule::kEnd, "Best possible cavity");
+  // With the levels of contents that its quadric was found for.
+  Fillings& fillings = found.task.model.fillings;
+  if (found.task.bound->binding.size() > fillings.size()) fillings = found.task.bound->binding;
   CavityResult best = bestPossibleCavity(found.task, *foundation.deliverable);
   best.effort += found.cavity.effort;
   if (options.cavityShape != CavityShape::BestPossible &&

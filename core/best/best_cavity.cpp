@@ -43,22 +43,13 @@ void inspect(const CavityTask& task, CavityResult& result) {
   result.effort.secondsInspection = time.seconds();
 }
 
-/// One for all layers: their mean, which is near the best one where levels of contents count
-/// little.
-Moments quadricOf(const LayeredQuadric& worth) {
-  Moments sum = Moments::Zero();
-  for (const Moments& quadric : worth.quadrics) sum += quadric;
-  return sum / static_cast<double>(worth.quadrics.size());
-}
-
 /// The contour as the goal would have it, or as it was: what serves best of those that are clean,
 /// for triangles that give way to the wall cost more in one than in another.
-CavityResult polished(const CavityTask& task, const Moments& quadric, double wall,
+CavityResult polished(const CavityTask& task, const LayeredQuadric& quadric, double wall,
                       const CavityContour& found) {
-  constexpr double kFarthest = 0.3; // of a cube's edge
   int evaluations = 0;
   const auto adjust = [&](Moving moving, Contour& contour) {
-    evaluations += polish(task, quadric, moving, kFarthest * found.edge, contour);
+    evaluations += polish(task, quadric, moving, found.edge, contour);
   };
   std::vector<CavityResult> candidates{resultOf(task, found.contour.mesh)};
   // Creases that move leave the walls' surface a little, and the constraints with it.
@@ -109,7 +100,7 @@ OpenedSet deliverableSet(const TriangleTree& surface, double wall, const RegionP
 
 CavityResult bestPossibleCavity(const CavityTask& task, const OpenedSet& deliverable) {
   const Stopwatch time;
-  const Moments quadric = quadricOf(task.bound->worth);
+  const LayeredQuadric& quadric = task.bound->worth;
   double wall = task.wall;
   CavityResult result;
   constexpr int kRounds = 3;

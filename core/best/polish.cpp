@@ -57,9 +57,11 @@ RowMatrix functionsOf(const Points& vertices, const Points& directions, Eigen::I
 
 } // namespace
 
-int polish(const CavityTask& task, const Moments& quadric, Moving moving, double farthest,
+int polish(const CavityTask& task, const LayeredQuadric& quadric, Moving moving, double edge,
            Contour& contour) {
-  const Region region{task.surface, task.wall, nullptr, quadric};
+  constexpr double kFarthest = 0.3; // edges, root mean square of the displacements
+  const double farthest = kFarthest * edge;
+  const Region region{task.surface, task.wall, nullptr, quadric, edge};
   const Faces& faces = contour.mesh.faces;
   const Points start = contour.mesh.vertices;
   const bool usesInertia = task.goal.usesInertia();

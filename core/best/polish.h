@@ -11,9 +11,9 @@ namespace massprops {
 enum class Moving { CutAndCreases, CutAlone };
 
 /// Moves the vertices on the quadric as another quadric near it would have them, so that the body
-/// keeps the goal's constraints and serves its objective best. `farthest`: root mean square of the
-/// displacements, at most. How often the body was evaluated.
-int polish(const CavityTask& task, const Moments& quadric, Moving moving, double farthest,
+/// keeps the goal's constraints and serves its objective best. `edge`: of the cubes that the
+/// contour was made with. How often the body was evaluated.
+int polish(const CavityTask& task, const LayeredQuadric& quadric, Moving moving, double edge,
            Contour& contour);
 
 } // namespace massprops

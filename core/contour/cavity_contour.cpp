@@ -70,10 +70,10 @@ std::vector<Vec3> troubles(const TriangleTree& surface, double wall, Contour& co
 } // namespace
 
 std::optional<CavityContour> cavityContour(const OpenedSet& set,
-                                           const std::optional<Moments>& quadric) {
+                                           const std::optional<LayeredQuadric>& quadric) {
   if (!set.deep) return CavityContour{{}, set.edge};
   const double leastVolume = std::pow(set.wall, 3);
-  const Region region{set.surface, set.wall, &*set.deep, quadric};
+  const Region region{set.surface, set.wall, &*set.deep, quadric, set.edge};
   BorderLattice lattice = borderLattice(region, set.edge);
   // What the cubes are too large for becomes solid.
   constexpr int kRounds = 8;

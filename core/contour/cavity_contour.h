@@ -14,11 +14,11 @@ struct CavityContour {
   double edge = 0.0;
 };
 
-/// The points of the opened set where the quadric (1, x, y, z, xx, yy, zz, xy, yz, zx)·quadric is
-/// positive, if one is given. Closed components, outward, that do not cross themselves, no point of
-/// which is nearer to the surface than the set's wall; no faces where there is no such point.
-/// Empty: it was not found, which happens on surfaces far too uneven.
+/// The points of the opened set where the quadric is positive, if one is given. Closed components,
+/// outward, that do not cross themselves, no point of which is nearer to the surface than the set's
+/// wall; no faces where there is no such point. Empty: it was not found, which happens on surfaces
+/// far too uneven.
 std::optional<CavityContour> cavityContour(const OpenedSet& set,
-                                           const std::optional<Moments>& quadric);
+                                           const std::optional<LayeredQuadric>& quadric);
 
 } // namespace massprops

@@ -20,7 +20,7 @@ struct Root {
   Vec3 slope = Vec3::Zero();
 };
 
-/// The zero of the cubic with these values and slopes at 0 and 1. \pre values > 0 and < 0
+/// The zero of the cubic with these values and slopes at 0 and 1. \pre values > 0 and ≤ 0
 double hermiteRoot(double value0, double slope0, double value1, double slope1) {
   const auto cubic = [&](double t) {
     const double u = 1.0 - t;
@@ -164,7 +164,7 @@ private:
     On on = On::Inset;
     const auto consider = [&](const std::optional<Sample>& atA, const std::optional<Sample>& atB,
                               On candidate) {
-      if (!atA || !atB || atA->value <= 0.0 || atB->value >= 0.0) return;
+      if (!atA || !atB || atA->value <= 0.0 || atB->value > 0.0) return;
       const Root root = rootBetween(*atA, *atB, way);
       if (root.t >= first.t) return;
       first = root;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <vector>
 
 namespace massprops {
 namespace {
@@ -31,15 +33,39 @@ double curvatureOf(const Moments& q) {
 } // namespace
 
 Sample cutAt(const Region& region, const Vec3& x) {
-  const QuadricAt q = quadricAt(*region.quadric, x);
+  const LayeredQuadric& layered = *region.quadric;
+  const std::vector<double>& heights = layered.heights;
+  QuadricAt q = quadricAt(layered.quadrics[layered.layerAt(x.z())], x);
+  const auto above = std::lower_bound(heights.begin(), heights.end(), x.z() - region.transition);
+  if (above != heights.end() && *above < x.z() + region.transition) {
+    // Of heights nearer to each other than that the lowest is taken.
+    const auto layer = static_cast<std::size_t>(above - heights.begin());
+    const QuadricAt below = quadricAt(layered.quadrics[layer], x);
+    q = quadricAt(layered.quadrics[layer + 1], x);
+    const double share = 0.5 + 0.5 * (x.z() - *above) / region.transition;
+    const double step = q.value - below.value;
+    q.value = below.value + share * step;
+    q.gradient = below.gradient + share * (q.gradient - below.gradient);
+    q.gradient.z() += 0.5 * step / region.transition;
+  }
   const double steepness = std::max(q.gradient.norm(), kTiny);
   return {q.value / steepness, q.gradient / steepness};
 }
 
 Side sideOfCut(const Region& region, const Vec3& x, double radius) {
-  const QuadricAt q = quadricAt(*region.quadric, x);
-  const double change = radius * (q.gradient.norm() + 0.5 * radius * curvatureOf(*region.quadric));
-  return std::abs(q.value) <= change ? Side::Both : q.value > 0.0 ? Side::Positive : Side::Negative;
+  const LayeredQuadric& layered = *region.quadric;
+  const std::size_t first = layered.layerAt(x.z() - radius - region.transition);
+  const std::size_t last = layered.layerAt(x.z() + radius + region.transition);
+  bool isPositive = false;
+  bool isNegative = false;
+  for (std::size_t layer = first; layer <= last; ++layer) {
+    const Moments& quadric = layered.quadrics[layer];
+    const QuadricAt q = quadricAt(quadric, x);
+    const double change = radius * (q.gradient.norm() + 0.5 * radius * curvatureOf(quadric));
+    isPositive = isPositive || q.value > -change;
+    isNegative = isNegative || q.value < change;
+  }
+  return isPositive && isNegative ? Side::Both : isPositive ? Side::Positive : Side::Negative;
 }
 
 InsetProbe::InsetProbe(const Region& region) : region_(region), inside_(region.surface) {

@@ -1,7 +1,7 @@
 // The points that may be hollow, as the positive side of a function.
 #pragma once
 
-#include "core/physics/moments.h"
+#include "core/optimum/layered_quadric.h"
 #include "core/query/point_in_mesh.h"
 #include "core/query/triangle_tree.h"
 
@@ -19,12 +19,15 @@ struct DeepPart {
 };
 
 /// Points at least a wall behind the surface, not farther from the deep part than its reach, on the
-/// positive side of the quadric (1, x, y, z, xx, yy, zz, xy, yz, zx)·quadric. Working frame.
+/// positive side of the quadric. Working frame.
 struct Region {
   const TriangleTree& surface; ///< closed, outward
   double wall;
-  const DeepPart* deep = nullptr;      ///< null: at any distance
-  std::optional<Moments> quadric = {}; ///< empty: on both sides
+  const DeepPart* deep = nullptr;             ///< null: at any distance
+  std::optional<LayeredQuadric> quadric = {}; ///< empty: on both sides
+  /// How far above and below a height between layers one quadric passes into the other, so that a
+  /// step there is no jump.
+  double transition = 0.0;
 };
 
 /// A function near a point, positive inside, its slope a unit vector: about a signed distance.

@@ -26,6 +26,8 @@ struct LayeredQuadric {
     return static_cast<std::size_t>(std::upper_bound(heights.begin(), heights.end(), z) -
                                     heights.begin());
   }
+  static LayeredQuadric ofOneLayer(const Moments& quadric) { return {{}, {quadric}}; }
+
   double valueAt(const Vec3& x) const { return quadrics[layerAt(x.z())].dot(monomials(x)); }
 };
 

@@ -36,10 +36,11 @@ TEST(Polish, MovesTheCutUntilTheConstraintsHold) {
   const TriangleMesh outer = sphere(24);
   const TriangleTree tree(outer.vertices, outer.faces);
   const double wall = 0.08;
-  Moments quadric = Moments::Zero();
+  Moments plane = Moments::Zero();
   const Vec3 normal(0.6, 0.0, 0.8);
-  quadric[0] = -0.1;
-  quadric.segment<3>(1) = normal;
+  plane[0] = -0.1;
+  plane.segment<3>(1) = normal;
+  const LayeredQuadric quadric = LayeredQuadric::ofOneLayer(plane);
   const auto found = cavityContour(
       openedSet(tree, wall, edgeOfCubes(surfaceArea(outer.vertices, outer.faces), 15000)), quadric);
   ASSERT_TRUE(found);
@@ -59,7 +60,7 @@ TEST(Polish, MovesTheCutUntilTheConstraintsHold) {
   task.wall = wall;
   for (const Moving moving : {Moving::CutAlone, Moving::CutAndCreases}) {
     Contour contour = found->contour;
-    EXPECT_GT(polish(task, quadric, moving, 0.3 * found->edge, contour), 0);
+    EXPECT_GT(polish(task, quadric, moving, found->edge, contour), 0);
     const Vector left = goal.equalities(bodyOf(contour.mesh)).values;
     // Creases go as far as triangles stay sound.
     EXPECT_LT(left.cwiseAbs().maxCoeff(), moving == Moving::CutAlone ? 1e-5 : 1e-4);

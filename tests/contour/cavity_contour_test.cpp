@@ -110,9 +110,32 @@ TEST(CavityContour, KeepsItsPromisesForAnyQuadric) {
     const double wall = 0.01 * diagonal;
     const auto cavity = cavityContour(
         openedSet(tree, wall, edgeOfCubes(surfaceArea(outer.vertices, outer.faces), 15000)),
-        quadric);
+        LayeredQuadric::ofOneLayer(quadric));
     ASSERT_TRUE(cavity);
     if (cavity->contour.mesh.faces.rows() > 0) expectCavity(tree, wall, cavity->contour.mesh);
+  }
+}
+
+TEST(CavityContour, HasAStepBetweenLayers) {
+  const TriangleMesh outer = box({1.0, 1.0, 1.0}, 3);
+  const TriangleTree tree(outer.vertices, outer.faces);
+  const double wall = 0.05;
+  LayeredQuadric quadric{{0.1}, {Moments::Zero(), Moments::Zero()}};
+  // Hollow where x > −0.2 below the height 0.1, where x > 0.3 above it.
+  quadric.quadrics[0].head<2>() << 0.2, 1.0;
+  quadric.quadrics[1].head<2>() << -0.3, 1.0;
+  const double edge = 0.02;
+  const auto cavity = cavityContour(openedSet(tree, wall, edge), quadric);
+  ASSERT_TRUE(cavity);
+  const TriangleMesh& mesh = cavity->contour.mesh;
+  expectCavity(tree, wall, mesh);
+  const double volume = 0.9 * (0.65 * 0.55 + 0.15 * 0.35);
+  EXPECT_NEAR(moments(mesh.vertices, mesh.faces)[0], volume, 2e-3 * volume);
+  // The step is one: between the planes nothing is farther from its height than the transition.
+  for (const auto& x : mesh.vertices.rowwise()) {
+    if (x.x() > -0.15 && x.x() < 0.25 && std::abs(x.y()) < 0.4 && x.z() > -0.4) {
+      EXPECT_NEAR(x.z(), 0.1, 1.01 * edge);
+    }
   }
 }
 

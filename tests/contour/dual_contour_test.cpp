@@ -30,11 +30,11 @@ void expectClosedManifold(const TriangleMesh& mesh) {
   EXPECT_TRUE(selfIntersectingFaces(mesh.vertices, mesh.faces).empty());
 }
 
-Moments halfSpace(const Vec3& normal, double offset) {
+LayeredQuadric halfSpace(const Vec3& normal, double offset) {
   Moments quadric = Moments::Zero();
   quadric[0] = -offset;
   quadric.segment<3>(1) = normal;
-  return quadric;
+  return LayeredQuadric::ofOneLayer(quadric);
 }
 
 TEST(DualContour, OfABoxIsTheSmallerBoxWithItsEdges) {
@@ -90,7 +90,8 @@ TEST(DualContour, OfABallCutByAnEllipsoidHasTheVolumeBetween) {
   const Vec3 half(0.3, 0.4, 0.5);
   quadric[0] = -1.0;
   quadric.segment<3>(4) = half.cwiseAbs2().cwiseInverse();
-  const Contour inner = dualContour(borderLattice({tree, 0.1, nullptr, quadric}, 0.04));
+  const Contour inner =
+      dualContour(borderLattice({tree, 0.1, nullptr, LayeredQuadric::ofOneLayer(quadric)}, 0.04));
   expectClosedManifold(inner.mesh);
   const double kPi4_3 = 4.0 / 3.0 * kPi;
   EXPECT_NEAR(moments(inner.mesh.vertices, inner.mesh.faces)[0],
@@ -111,7 +112,8 @@ TEST(DualContour, IsFreeOfCrossingsHoweverCoarse) {
     quadric.tail<6>() *= 3.0;
     const double wall = extent.norm() * (0.004 + 0.001 * (i % 10));
     const double edge = wall * (0.5 + 0.1 * (i % 13));
-    const Contour contour = dualContour(borderLattice({tree, wall, nullptr, quadric}, edge));
+    const Contour contour = dualContour(
+        borderLattice({tree, wall, nullptr, LayeredQuadric::ofOneLayer(quadric)}, edge));
     expectClosedManifold(contour.mesh);
   }
 }
