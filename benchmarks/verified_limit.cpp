@@ -66,15 +66,6 @@ struct Levels {
   double excess(double proved) const { return 100.0 * (proved - estimate) / (estimate - solid); }
 };
 
-/// As for the limit, with every level of contents between the cells.
-Fillings statesOf(const Preparation& model, const Options& options) {
-  Fillings states = fillingsSeenBy(options);
-  if (states.size() < 2) return states;
-  const double density = states.back().density;
-  for (const double height : layerHeights(model.surface)) states.push_back({density, height});
-  return states;
-}
-
 /// That the filter's cavity reaches, measured on its triangles.
 double levelOf(const Search& found, const LinearConditions& conditions, const Options& options) {
   const Moments mass = hollowBody(found.task, found.cavity).mass;
@@ -95,7 +86,7 @@ std::optional<Levels> levelsOf(const Preparation& model, const Options& options,
   Levels levels{};
   levels.solid = c.inUnit(levelReached(conditions, model.solidMoments));
   levels.estimate = c.inUnit(bound.reached);
-  const Fillings states = statesOf(model, options);
+  const Fillings states = statesOfLimit(model, options);
   const auto proved = [&](std::size_t cubes, double& seconds) {
     const std::clock_t start = std::clock();
     const std::optional<double> level = provedLevel(conditions, bound, model.solidMoments, states,

@@ -103,16 +103,6 @@ CavityTask taskAlong(double wantedClearance, const Goal& goal, const Preparation
   return task;
 }
 
-/// All states in which the best possible body is to serve the goal, where there is more than one
-/// with every level of contents between the limit's cells.
-Fillings statesOf(const Preparation& model, const Options& options) {
-  Fillings states = fillingsSeenBy(options);
-  if (states.size() < 2) return states;
-  const double density = states.back().density;
-  for (const double height : layerHeights(model.surface)) states.push_back({density, height});
-  return states;
-}
-
 bool keepsConstraints(const CavityTask& task, const CavityResult& cavity) {
   return cavity.status == CavityStatus::Found && hollowBody(task, cavity).violation <= kFeasibility;
 }
@@ -238,7 +228,7 @@ void proveOutOfReach(const Preparation& model, const Options& options, Search& f
   const std::optional<OptimalBound>& bound = found.task.bound;
   if (!bound || (bound->isReachable() && !bound->outOfReach)) return;
   const Stopwatch time;
-  const Fillings fillings = statesOf(model, options);
+  const Fillings fillings = statesOfLimit(model, options);
   const auto add = [&](std::optional<Certificate> proof) {
     if (proof) found.certificates.push_back(std::move(*proof));
     return proof.has_value();
@@ -280,6 +270,14 @@ Preparation prepare(const TriangleMesh& model, const Options& options, ProgressB
   return {model, options, resolution};
 }
 
+Fillings statesOfLimit(const Preparation& model, const Options& options) {
+  Fillings states = fillingsSeenBy(options);
+  if (states.size() < 2) return states;
+  const double density = states.back().density;
+  for (const double height : layerHeights(model.surface)) states.push_back({density, height});
+  return states;
+}
+
 Foundation coarsen(const Preparation& model, const Options& options, ProgressBar& bar) {
   Foundation result;
   const auto checkCrossings = [&] {
@@ -295,9 +293,9 @@ Foundation coarsen(const Preparation& model, const Options& options, ProgressBar
     if (cells.rows() == 0) return;
     const Goal& goal = *model.goal;
     const Weights& weights = options.weights;
-    const Fillings states = statesOf(model, options);
+    const Fillings states = statesOfLimit(model, options);
     result.bound = optimalBound(goal, weights, model.solidMoments, states, cells);
-    result.deliverable.emplace(deliverableSet(model.surface, model.posed.wall, behindWalls));
+    result.deliverable.emplace(deliverableSet(model.surface, model.posed.wall, behindWalls, cells));
     const AdmissibleCells wide = cellsOf(partsWithin(*result.deliverable, behindWalls));
     if (wide.col(0).sum() < cells.col(0).sum()) {
       result.bound =

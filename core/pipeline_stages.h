@@ -81,6 +81,10 @@ struct Foundation {
   double secondsBound = 0.0, secondsCrossings = 0.0;
 };
 
+/// All states in which the best possible body is to serve the goal, where there is more than one
+/// with every level of contents between the limit's cells.
+Fillings statesOfLimit(const Preparation& model, const Options& options);
+
 /// \throw InvalidInput when the model crosses itself
 Foundation coarsen(const Preparation& model, const Options& options, ProgressBar& bar);
 

@@ -846,6 +846,23 @@ TEST(Pipeline, ShowsProgressAndTimeOfTheSearchForALargerWall) {
   EXPECT_GT(std::get<double>(report.at("seconds_largest_wall")), 0.0);
 }
 
+TEST(Pipeline, KnowsTheLargestWallThatLeavesRoomForABestPossibleCavity) {
+  Options options;
+  options.goal = GoalKind::Mass;
+  options.cavityShape = CavityShape::BestPossible;
+  options.innerLowerBound = 0.45;
+  const Result result = optimizeMassProperties(box({1, 1, 1}, 6), options);
+  ASSERT_EQ(std::get<int>(result.report.at("cavity_components")), 0);
+  const std::string message = text(result, "message");
+  const std::string before = "lower inner_lower_bound to ";
+  const std::size_t place = message.find(before);
+  ASSERT_NE(place, std::string::npos) << message;
+  // A ball as wide as the wall fits behind it up to a third of the cube's side; within an eighth.
+  const double wall = std::stod(message.substr(place + before.size()));
+  EXPECT_GT(wall, 0.875 / 3.0);
+  EXPECT_LE(wall, 1.0 / 3.0);
+}
+
 TEST(Pipeline, SaysWhatToDoWhereALibraryGivesUp) {
   // CGAL's failures are logic errors.
   Options options;

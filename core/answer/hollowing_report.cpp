@@ -42,7 +42,7 @@ std::string outlook(const CavityTask& task, const Verdict& verdict, bool isProve
       return " A cavity of another shape could reach it.";
     }
     return verdict.isReached(task.bound->massMomentsInAll)
-               ? " Only a cavity with channels narrower than the wall could reach it."
+               ? " A cavity with channels narrower than the wall could reach it."
                : " No cavity of any other shape was found to reach it.";
   }
   const LevelBound* best = task.bound->bestLevel();

@@ -17,10 +17,12 @@ inline Vec3 areaNormal(const Points& vertices, const Faces& faces, Eigen::Index 
                     vertices.row(faces(f, 2)).transpose());
 }
 
+/// Of all faces, in squares of the vertices' unit.
 inline double surfaceArea(const Points& vertices, const Faces& faces) {
   double area = 0.0;
-  for (Eigen::Index f = 0; f < faces.rows(); ++f)
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
     area += 0.5 * areaNormal(vertices, faces, f).norm();
+  }
   return area;
 }
 

@@ -37,7 +37,7 @@ CavityResult resultOf(const CavityTask& task, const TriangleMesh& mesh) {
   return result;
 }
 
-void inspect(const CavityTask& task, CavityResult& result) {
+void addInspection(const CavityTask& task, CavityResult& result) {
   const Stopwatch time;
   result.inspection = inspect(result.inner, result.cavity.faces, task.surface, task.wall, false);
   result.effort.secondsInspection = time.seconds();
@@ -67,7 +67,7 @@ CavityResult polished(const CavityTask& task, const LayeredQuadric& quadric, dou
       [&](const CavityResult& a, const CavityResult& b) { return servesBetter(task, a, b); });
   CavityResult* best = nullptr;
   for (CavityResult& candidate : candidates) {
-    inspect(task, candidate);
+    addInspection(task, candidate);
     if (best == nullptr) best = &candidate;
     if (!candidate.inspection.isClean()) continue;
     best = &candidate;
@@ -80,19 +80,21 @@ CavityResult polished(const CavityTask& task, const LayeredQuadric& quadric, dou
 
 bool leavesRoom(const TriangleTree& surface, double wall) {
   constexpr double kFewCubes = 8000.0;
-  const std::optional<CavityContour> found = cavityContour(openedSet(surface, wall, kFewCubes), {});
+  const double edge = edgeOfCubes(surfaceArea(surface.vertices(), surface.faces()), kFewCubes);
+  const std::optional<CavityContour> found = cavityContour(openedSet(surface, wall, edge), {});
   return found && found->contour.mesh.faces.rows() > 0;
 }
 
 } // namespace
 
-OpenedSet deliverableSet(const TriangleTree& surface, double wall, const RegionParts& behindWall) {
+OpenedSet deliverableSet(const TriangleTree& surface, double wall, const RegionParts& behindWall,
+                         const AdmissibleCells& cells) {
   constexpr double kFewest = 15000.0;
   constexpr double kMost = 50000.0;
   constexpr double kAcross = 9.0; // a room of the mean width
   constexpr double kLeastEdge = 1.0 / 1000.0;
   const double area = borderArea(behindWall);
-  const double width = 2.0 * cellsOf(behindWall).col(0).sum() / area;
+  const double width = 2.0 * cells.col(0).sum() / area;
   const double edge =
       std::clamp(width / kAcross, edgeOfCubes(area, kMost), edgeOfCubes(area, kFewest));
   return openedSet(surface, wall, std::max(edge, kLeastEdge));

@@ -9,8 +9,9 @@
 namespace massprops {
 
 /// What a cavity may take behind a wall, as finely as it is delivered: the finer, the narrower its
-/// rooms. `behindWall`: all that lies there.
-OpenedSet deliverableSet(const TriangleTree& surface, double wall, const RegionParts& behindWall);
+/// rooms. `behindWall`: all that lies there, `cells`: what these are.
+OpenedSet deliverableSet(const TriangleTree& surface, double wall, const RegionParts& behindWall,
+                         const AdmissibleCells& cells);
 
 /// The part of what can be delivered on the positive side of the bound's quadric: its surface,
 /// adjusted so that the body of these triangles keeps the constraints. Passed inspection, as with

@@ -28,7 +28,7 @@ public:
 
   void add(const RegionPart& part, int number) {
     constexpr int kCells = 1 << 9; // of the largest cube
-    cells_ = -2 - kCells * number;
+    cells_ = -2 - kCells * number; // unlike all others, whichever thread calculates them
     add(part);
   }
 
@@ -118,7 +118,6 @@ RegionParts partsWithin(const OpenedSet& set, const RegionParts& all) {
     }
     chunks[static_cast<std::size_t>(chunk.number)] = std::move(opening).parts();
   });
-  // Parts of a cell may be in two chunks.
   for (const std::vector<RegionPart>& chunk : chunks) {
     result.parts.insert(result.parts.end(), chunk.begin(), chunk.end());
   }

@@ -8,7 +8,8 @@
 
 namespace massprops {
 
-/// The points at least `wall` behind the surface, opened by a ball as wide as the wall.
+/// The points at least `wall` behind the surface, opened by a ball as wide as the wall:
+/// docs/math.md "The best possible cavity". Working frame.
 struct OpenedSet {
   const TriangleTree& surface;  ///< closed, outward
   double wall;                  ///< a little more than the wanted one: what rounding takes
@@ -16,13 +17,14 @@ struct OpenedSet {
   std::optional<DeepPart> deep; ///< empty: no such ball fits, there are no points
 };
 
-/// The edge of cubes about so many of which a surface passes through.
+/// The edge of cubes about `count` of which a surface of this area passes through; a length.
 double edgeOfCubes(double area, double count);
 
-/// The surface must outlive the set. `edge`: of the cubes.
+/// The surface must outlive the set. `wall`, `edge` of the cubes: lengths.
 OpenedSet openedSet(const TriangleTree& surface, double wall, double edge);
 
-/// What belongs to it of cubes behind the walls.
+/// What belongs to it of the cubes behind the walls; one more plane cuts those where the opening
+/// ends.
 RegionParts partsWithin(const OpenedSet& set, const RegionParts& all);
 
 } // namespace massprops

@@ -12,7 +12,7 @@ namespace massprops {
 /// part of it that may be hollow. Working frame.
 using AdmissibleCells = Eigen::Matrix<double, Eigen::Dynamic, 10, Eigen::RowMajor>;
 
-/// Where a cube lies whose points may be hollow, or part of them.
+/// A cube whose points may be hollow, or part of them. Working frame.
 struct RegionPart {
   Vec3 centre;
   double depth; ///< behind the surface, negative outside
