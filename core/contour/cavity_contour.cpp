@@ -44,9 +44,24 @@ Contour thinnedOut(const Contour& contour, double distance) {
   return partOf(contour, std::move(fewer.mesh), fewer.vertexOf);
 }
 
-/// Few triangles, none of them a sliver, on the border.
-Contour smoothed(const Region& region, double edge, Contour contour) {
+/// Puts vertices back to where they were until no faces cross each other. \pre they did not there
+void putBackCrossing(const Points& before, Contour& contour) {
+  TriangleMesh& mesh = contour.mesh;
+  for (;;) {
+    const std::vector<int> crossing = selfIntersectingFaces(mesh.vertices, mesh.faces);
+    if (crossing.empty()) return;
+    for (const int f : crossing) {
+      for (const int v : mesh.faces.row(f)) mesh.vertices.row(v) = before.row(v);
+    }
+  }
+}
+
+/// Few triangles, none of them a sliver, on the border. `isCareful`: vertices stay where they would
+/// have to cross something on their way there, which takes time to find out.
+Contour smoothed(const Region& region, double edge, bool isCareful, Contour contour) {
+  const Points raw = contour.mesh.vertices;
   project(region, edge, contour);
+  if (isCareful) putBackCrossing(raw, contour);
   constexpr double kSliver = 8.0; // degrees; a target that leaves room to what follows
   removeSlivers(kSliver, contour);
   constexpr double kFlat = 0.002; // walls
@@ -55,16 +70,23 @@ Contour smoothed(const Region& region, double edge, Contour contour) {
   return contour;
 }
 
-/// Where triangles come too near to the surface or cross each other.
-std::vector<Vec3> troubles(const TriangleTree& surface, double wall, Contour& contour) {
+/// Corners of triangles that come too near to the surface, and of those that cross each other.
+struct Troubles {
+  std::vector<Vec3> thin, crossing;
+
+  bool areNone() const { return thin.empty() && crossing.empty(); }
+};
+
+Troubles troublesLeft(const TriangleTree& surface, double wall, Contour& contour) {
   TriangleMesh& mesh = contour.mesh;
-  std::vector<Vec3> points;
+  Troubles troubles;
   for (const int v : keepWall(surface, wall, mesh))
-    points.emplace_back(mesh.vertices.row(v).transpose());
+    troubles.thin.emplace_back(mesh.vertices.row(v).transpose());
   for (const int f : selfIntersectingFaces(mesh.vertices, mesh.faces)) {
-    for (const int v : mesh.faces.row(f)) points.emplace_back(mesh.vertices.row(v).transpose());
+    for (const int v : mesh.faces.row(f))
+      troubles.crossing.emplace_back(mesh.vertices.row(v).transpose());
   }
-  return points;
+  return troubles;
 }
 
 } // namespace
@@ -75,15 +97,18 @@ std::optional<CavityContour> cavityContour(const OpenedSet& set,
   const double leastVolume = std::pow(set.wall, 3);
   const Region region{set.surface, set.wall, &*set.deep, quadric, set.edge};
   BorderLattice lattice = borderLattice(region, set.edge);
-  // What the cubes are too large for becomes solid.
-  constexpr int kRounds = 8;
+  // What the cubes are too large for becomes solid; first of what crosses it is tried without.
+  bool isCareful = false;
+  constexpr int kRounds = 9;
   for (int round = 0; round < kRounds; ++round) {
     const Contour raw = withoutLooseParts(dualContour(lattice), leastVolume);
     if (raw.mesh.faces.rows() == 0) return CavityContour{{}, set.edge};
-    Contour contour = smoothed(region, set.edge, raw);
-    const std::vector<Vec3> points = troubles(set.surface, set.wall, contour);
-    if (points.empty()) return CavityContour{std::move(contour), set.edge};
-    takeOut(points, lattice);
+    Contour contour = smoothed(region, set.edge, isCareful, raw);
+    const Troubles troubles = troublesLeft(set.surface, set.wall, contour);
+    if (troubles.areNone()) return CavityContour{std::move(contour), set.edge};
+    takeOut(troubles.thin, lattice);
+    if (isCareful) takeOut(troubles.crossing, lattice);
+    isCareful = isCareful || !troubles.crossing.empty();
   }
   return {};
 }

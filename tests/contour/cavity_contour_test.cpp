@@ -8,6 +8,7 @@
 #include "core/mesh/connectivity.h"
 #include "core/query/self_intersection.h"
 #include "core/query/surface_distance.h"
+#include "property/cases.h"
 #include "shapes.h"
 
 #include <gtest/gtest.h>
@@ -137,6 +138,25 @@ TEST(CavityContour, HasAStepBetweenLayers) {
       EXPECT_NEAR(x.z(), 0.1, 1.01 * edge);
     }
   }
+}
+
+// In rooms about as wide as cubes the way to the border may lead through the border opposite.
+TEST(CavityContour, LosesLittleWhereVerticesCannotGoToTheBorder) {
+  const PropertyCase bowl = makeCase(7, 21);
+  TriangleMesh outer = bowl.body;
+  const double diagonal =
+      (outer.vertices.colwise().maxCoeff() - outer.vertices.colwise().minCoeff()).norm();
+  outer.vertices /= diagonal;
+  const TriangleTree tree(outer.vertices, outer.faces);
+  const double wall = bowl.wall / diagonal;
+  const double edge = edgeOfCubes(surfaceArea(outer.vertices, outer.faces), 15000);
+  EXPECT_GT(edge, 1.3 * wall);
+  const auto cavity = cavityContour(openedSet(tree, wall, edge), {});
+  ASSERT_TRUE(cavity);
+  const TriangleMesh& mesh = cavity->contour.mesh;
+  expectCavity(tree, wall, mesh);
+  constexpr double kWhole = 0.03991; // with cubes a sixth as large
+  EXPECT_GT(moments(mesh.vertices, mesh.faces)[0], 0.96 * kWhole);
 }
 
 TEST(CavityContour, IsEmptyWhereThereIsNoRoom) {
