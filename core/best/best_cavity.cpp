@@ -37,43 +37,127 @@ CavityResult resultOf(const CavityTask& task, const TriangleMesh& mesh) {
   return result;
 }
 
-void addInspection(const CavityTask& task, CavityResult& result) {
-  const Stopwatch time;
-  result.inspection = inspect(result.inner, result.cavity.faces, task.surface, task.wall, false);
-  result.effort.secondsInspection = time.seconds();
-}
+/// A contour and what it was before its vertices on the quadric moved.
+struct Candidate {
+  Contour contour;
+  Points before;
+  CavityResult result;
+};
+
+class Polishing {
+public:
+  Polishing(const CavityTask& task, const LayeredQuadric& quadric, double edge)
+      : task_(task), quadric_(quadric), edge_(edge) {}
+
+  int evaluations() const { return evaluations_; }
+  double secondsInspection() const { return secondsInspection_; }
+
+  /// Not inspected.
+  Candidate unmoved(const Contour& contour) const {
+    return {contour, contour.mesh.vertices, resultOf(task_, contour.mesh)};
+  }
+
+  void moveCreases(Contour& contour) {
+    evaluations_ += polish(task_, quadric_, Moving::CutAndCreases, edge_, {}, contour).evaluations;
+  }
+
+  /// Not inspected.
+  Candidate adjusted(const Contour& contour) {
+    Candidate candidate{contour, contour.mesh.vertices, {}};
+    adjust({}, candidate);
+    return candidate;
+  }
+
+  /// Inspected. Vertices whose faces do not pass go back to where they were and stay there with
+  /// those around them, while the others are adjusted anew.
+  void makePass(Candidate& candidate) {
+    constexpr int kRounds = 5;
+    std::vector<char> held(static_cast<std::size_t>(candidate.before.rows()), 0);
+    for (int round = 0;; ++round) {
+      inspectResult(candidate.result);
+      if (candidate.result.inspection.isClean() || round == kRounds) return;
+      if (!holdFaulty(candidate, held)) return;
+      adjust(held, candidate);
+    }
+  }
+
+private:
+  void adjust(const std::vector<char>& held, Candidate& candidate) {
+    constexpr int kTimes = 3; // each goes a part of an edge's length at most
+    for (int i = 0; i < kTimes; ++i) {
+      const Polished polished =
+          polish(task_, quadric_, Moving::CutAlone, edge_, held, candidate.contour);
+      evaluations_ += polished.evaluations;
+      if (polished.violation <= kFeasibility) break;
+    }
+    candidate.result = resultOf(task_, candidate.contour.mesh);
+  }
+
+  void inspectResult(CavityResult& result) {
+    const Stopwatch time;
+    result.inspection =
+        inspect(result.inner, result.cavity.faces, task_.surface, task_.wall, false);
+    secondsInspection_ += time.seconds();
+  }
+
+  /// Whether there was one that was not held yet.
+  static bool holdFaulty(Candidate& candidate, std::vector<char>& held) {
+    const Inspection& inspection = candidate.result.inspection;
+    const Faces& faces = candidate.contour.mesh.faces;
+    std::vector<char> faulty(held.size(), 0);
+    for (const int v : inspection.crossing) faulty[static_cast<std::size_t>(v)] = 1;
+    for (const int v : inspection.thin) faulty[static_cast<std::size_t>(v)] = 1;
+    bool isNew = false;
+    const auto isFaulty = [&](int v) { return faulty[static_cast<std::size_t>(v)] != 0; };
+    for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+      const auto corners = faces.row(f);
+      if (std::none_of(corners.begin(), corners.end(), isFaulty)) continue;
+      for (const int v : corners) {
+        isNew = isNew || held[static_cast<std::size_t>(v)] == 0;
+        held[static_cast<std::size_t>(v)] = 1;
+        candidate.contour.mesh.vertices.row(v) = candidate.before.row(v);
+      }
+    }
+    return isNew;
+  }
+
+  const CavityTask& task_;
+  const LayeredQuadric& quadric_;
+  double edge_;
+  int evaluations_ = 0;
+  double secondsInspection_ = 0.0;
+};
 
 /// The contour as the goal would have it, or as it was: what serves best of those that are clean,
 /// for triangles that give way to the wall cost more in one than in another.
 CavityResult polished(const CavityTask& task, const LayeredQuadric& quadric, double wall,
                       const CavityContour& found) {
-  int evaluations = 0;
-  const auto adjust = [&](Moving moving, Contour& contour) {
-    evaluations += polish(task, quadric, moving, found.edge, contour);
-  };
-  std::vector<CavityResult> candidates{resultOf(task, found.contour.mesh)};
+  Polishing polishing(task, quadric, found.edge);
+  std::vector<Candidate> candidates{polishing.unmoved(found.contour)};
   // Creases that move leave the walls' surface a little, and the constraints with it.
   Contour whole = found.contour;
-  adjust(Moving::CutAndCreases, whole);
-  if (keepWall(task.surface, wall, whole.mesh, &found.contour.mesh.vertices).empty()) {
-    adjust(Moving::CutAlone, whole);
-    candidates.push_back(resultOf(task, whole.mesh));
-  }
-  Contour inside = found.contour;
-  adjust(Moving::CutAlone, inside);
-  candidates.push_back(resultOf(task, inside.mesh));
-  std::stable_sort(
-      candidates.begin(), candidates.end(),
-      [&](const CavityResult& a, const CavityResult& b) { return servesBetter(task, a, b); });
+  polishing.moveCreases(whole);
+  if (keepWall(task.surface, wall, whole.mesh, &found.contour.mesh.vertices).empty())
+    candidates.push_back(polishing.adjusted(whole));
+  candidates.push_back(polishing.adjusted(found.contour));
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [&](const Candidate& a, const Candidate& b) {
+                     return servesBetter(task, a.result, b.result);
+                   });
+  // What passes at once serves better than what comes after it; what gave way may not.
   CavityResult* best = nullptr;
-  for (CavityResult& candidate : candidates) {
-    addInspection(task, candidate);
-    if (best == nullptr) best = &candidate;
-    if (!candidate.inspection.isClean()) continue;
-    best = &candidate;
-    break;
+  for (Candidate& candidate : candidates) {
+    if (best != nullptr && best->inspection.isClean() &&
+        !servesBetter(task, candidate.result, *best))
+      continue;
+    polishing.makePass(candidate);
+    const bool isClean = candidate.result.inspection.isClean();
+    if (best == nullptr ||
+        (isClean && (!best->inspection.isClean() || servesBetter(task, candidate.result, *best))))
+      best = &candidate.result;
   }
-  best->effort.evaluations = evaluations;
+  best->effort.evaluations = polishing.evaluations();
+  best->effort.secondsInspection = polishing.secondsInspection();
   best->stopReason = "the limit's cavity, adjusted on its triangles";
   return std::move(*best);
 }

@@ -13,13 +13,15 @@ namespace massprops {
 namespace {
 
 /// Where each vertex goes while the quadric rises by a unit of length; 0 for those that stay.
-Points directionsOf(const Region& region, Moving moving, const Contour& contour) {
+Points directionsOf(const Region& region, Moving moving, const std::vector<char>& held,
+                    const Contour& contour) {
   const Points& vertices = contour.mesh.vertices;
   Points directions = Points::Zero(vertices.rows(), 3);
   InsetProbe probe(region);
   for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
     const On on = contour.on[static_cast<std::size_t>(v)];
     if (on != On::Cut && (on != On::Crease || moving == Moving::CutAlone)) continue;
+    if (!held.empty() && held[static_cast<std::size_t>(v)] != 0) continue;
     const Vec3 x = vertices.row(v).transpose();
     const Vec3 cut = cutAt(region, x).slope;
     if (on == On::Cut) {
@@ -57,19 +59,19 @@ RowMatrix functionsOf(const Points& vertices, const Points& directions, Eigen::I
 
 } // namespace
 
-int polish(const CavityTask& task, const LayeredQuadric& quadric, Moving moving, double edge,
-           Contour& contour) {
+Polished polish(const CavityTask& task, const LayeredQuadric& quadric, Moving moving, double edge,
+                const std::vector<char>& held, Contour& contour) {
   constexpr double kFarthest = 0.3; // edges, root mean square of the displacements
   const double farthest = kFarthest * edge;
   const Region region{task.surface, task.wall, nullptr, quadric, edge};
   const Faces& faces = contour.mesh.faces;
   const Points start = contour.mesh.vertices;
   const bool usesInertia = task.goal.usesInertia();
-  const Points directions = directionsOf(region, moving, contour);
+  const Points directions = directionsOf(region, moving, held, contour);
   constexpr double kUnit = 0.05; // of the farthest: what the solver's variables are 1 for
   const RowMatrix functions =
       kUnit * farthest * functionsOf(start, directions, usesInertia ? 10 : 4);
-  if (functions.size() == 0) return 0;
+  if (functions.size() == 0) return {};
   const auto displaced = [&](const Vector& q) {
     return Points(start + (functions * q).asDiagonal() * directions);
   };
@@ -101,7 +103,7 @@ int polish(const CavityTask& task, const LayeredQuadric& quadric, Moving moving,
   } else {
     moveSoundly(displaced(result.x), faces, contour.mesh.vertices);
   }
-  return result.evaluations;
+  return {result.evaluations, result.violation};
 }
 
 } // namespace massprops

@@ -4,16 +4,23 @@
 #include "core/contour/dual_contour.h"
 #include "core/reduced/cavity_search.h"
 
+#include <vector>
+
 namespace massprops {
 
 /// Which vertices move: those of the cut along its normal, those of creases along what the walls
 /// leave, as far as triangles stay sound, so that the constraints hold nearly only.
 enum class Moving { CutAndCreases, CutAlone };
 
+struct Polished {
+  int evaluations = 0;    ///< of the body
+  double violation = 0.0; ///< largest of the goal's constraints; 0 where no vertex could move
+};
+
 /// Moves the vertices on the quadric as another quadric near it would have them, so that the body
 /// keeps the goal's constraints and serves its objective best. `edge`: of the cubes that the
-/// contour was made with. How often the body was evaluated.
-int polish(const CavityTask& task, const LayeredQuadric& quadric, Moving moving, double edge,
-           Contour& contour);
+/// contour was made with. `held`: n flags, of vertices that stay; may be empty.
+Polished polish(const CavityTask& task, const LayeredQuadric& quadric, Moving moving, double edge,
+                const std::vector<char>& held, Contour& contour);
 
 } // namespace massprops

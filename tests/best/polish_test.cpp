@@ -8,13 +8,15 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace massprops::testing {
 namespace {
 
 /// Mass and first moments that are wanted.
 class WantedGoal final : public Goal {
 public:
-  explicit WantedGoal(const Moments& wanted) : wanted_(wanted) {}
+  explicit WantedGoal(Moments wanted) : wanted_(std::move(wanted)) {}
 
   GoalValue objective(const Moments& /*massMoments*/) const override { return {}; }
   GoalConstraints equalities(const Moments& massMoments) const override {
@@ -60,7 +62,7 @@ TEST(Polish, MovesTheCutUntilTheConstraintsHold) {
   task.wall = wall;
   for (const Moving moving : {Moving::CutAlone, Moving::CutAndCreases}) {
     Contour contour = found->contour;
-    EXPECT_GT(polish(task, quadric, moving, found->edge, contour), 0);
+    EXPECT_GT(polish(task, quadric, moving, found->edge, {}, contour).evaluations, 0);
     const Vector left = goal.equalities(bodyOf(contour.mesh)).values;
     // Creases go as far as triangles stay sound.
     EXPECT_LT(left.cwiseAbs().maxCoeff(), moving == Moving::CutAlone ? 1e-5 : 1e-4);
@@ -70,6 +72,34 @@ TEST(Polish, MovesTheCutUntilTheConstraintsHold) {
     EXPECT_GT(farthest, 0.0);
     EXPECT_LT(farthest, found->edge);
   }
+}
+
+TEST(Polish, LeavesWhatIsHeldWhereItIs) {
+  const TriangleMesh outer = sphere(16);
+  const TriangleTree tree(outer.vertices, outer.faces);
+  const Moments plane = (Moments() << -0.1, 0, 0, 1, 0, 0, 0, 0, 0, 0).finished();
+  const LayeredQuadric quadric = LayeredQuadric::ofOneLayer(plane);
+  const auto found = cavityContour(openedSet(tree, 0.08, 0.06), quadric);
+  ASSERT_TRUE(found);
+  Moments wanted = moments(outer.vertices, outer.faces) -
+                   moments(found->contour.mesh.vertices, found->contour.mesh.faces);
+  wanted[0] -= 2e-3;
+  const WantedGoal goal(wanted);
+  CavityTask task{tree, goal, {}};
+  task.model.solidMoments = moments(outer.vertices, outer.faces);
+  task.model.fillings = {{}};
+  task.wall = 0.08;
+  std::vector<char> held(static_cast<std::size_t>(found->contour.mesh.vertices.rows()), 0);
+  for (std::size_t v = 0; v < held.size(); v += 2) held[v] = 1;
+  Contour contour = found->contour;
+  EXPECT_GT(polish(task, quadric, Moving::CutAlone, found->edge, held, contour).evaluations, 0);
+  int moved = 0;
+  for (Eigen::Index v = 0; v < contour.mesh.vertices.rows(); ++v) {
+    const bool stays = contour.mesh.vertices.row(v) == found->contour.mesh.vertices.row(v);
+    EXPECT_TRUE(stays || held[static_cast<std::size_t>(v)] == 0);
+    moved += static_cast<int>(!stays);
+  }
+  EXPECT_GT(moved, 20);
 }
 
 } // namespace
