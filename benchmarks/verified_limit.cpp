@@ -86,11 +86,11 @@ std::optional<Levels> levelsOf(const Preparation& model, const Options& options,
   Levels levels{};
   levels.solid = c.inUnit(levelReached(conditions, model.solidMoments));
   levels.estimate = c.inUnit(bound.reached);
-  const Fillings states = statesOfLimit(model, options);
   const auto proved = [&](std::size_t cubes, double& seconds) {
     const std::clock_t start = std::clock();
-    const std::optional<double> level = provedLevel(conditions, bound, model.solidMoments, states,
-                                                    model.surface, model.posed.wall, cubes);
+    const std::optional<double> level =
+        provedLevel(conditions, bound, model.solidMoments, foundation.states, model.surface,
+                    model.posed.wall, cubes);
     seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     return level ? c.inUnit(*level) : std::numeric_limits<double>::infinity();
   };

@@ -223,12 +223,18 @@ void findPrintMargins(const Preparation& model, Search& found) {
   found.secondsMargins = time.seconds();
 }
 
+Fillings statesOfLimit(const TriangleTree& surface, double edge, Fillings states) {
+  if (states.size() < 2) return states;
+  const double density = states.back().density;
+  for (const double height : layerHeights(surface, edge)) states.push_back({density, height});
+  return states;
+}
+
 /// Where not even the bound's body does what the goal asks for: all the proofs that takes, or none.
-void proveOutOfReach(const Preparation& model, const Options& options, Search& found) {
+void proveOutOfReach(const Preparation& model, const Fillings& fillings, Search& found) {
   const std::optional<OptimalBound>& bound = found.task.bound;
   if (!bound || (bound->isReachable() && !bound->outOfReach)) return;
   const Stopwatch time;
-  const Fillings fillings = statesOfLimit(model, options);
   const auto add = [&](std::optional<Certificate> proof) {
     if (proof) found.certificates.push_back(std::move(*proof));
     return proof.has_value();
@@ -270,14 +276,6 @@ Preparation prepare(const TriangleMesh& model, const Options& options, ProgressB
   return {model, options, resolution};
 }
 
-Fillings statesOfLimit(const Preparation& model, const Options& options) {
-  Fillings states = fillingsSeenBy(options);
-  if (states.size() < 2) return states;
-  const double density = states.back().density;
-  for (const double height : layerHeights(model.surface)) states.push_back({density, height});
-  return states;
-}
-
 Foundation coarsen(const Preparation& model, const Options& options, ProgressBar& bar) {
   Foundation result;
   const auto checkCrossings = [&] {
@@ -288,12 +286,13 @@ Foundation coarsen(const Preparation& model, const Options& options, ProgressBar
   const auto findBound = [&] {
     if (moves(options) || model.posed.open) return;
     const Stopwatch time;
-    const RegionParts behindWalls = admissibleParts(model.surface, model.posed.wall);
+    const RegionParts behindWalls = resolvedParts(model.surface, model.posed.wall);
     const AdmissibleCells cells = cellsOf(behindWalls);
     if (cells.rows() == 0) return;
     const Goal& goal = *model.goal;
     const Weights& weights = options.weights;
-    const Fillings states = statesOfLimit(model, options);
+    const Fillings& states = result.states =
+        statesOfLimit(model.surface, behindWalls.edge, fillingsSeenBy(options));
     result.bound = optimalBound(goal, weights, model.solidMoments, states, cells);
     result.deliverable.emplace(deliverableSet(model.surface, model.posed.wall, behindWalls, cells));
     const AdmissibleCells wide = cellsOf(partsWithin(*result.deliverable, behindWalls));
@@ -341,7 +340,7 @@ Search search(const Preparation& model, const Foundation& foundation, const Opti
   judge(model, options, result);
   considerBestPossible(model, foundation, options, bar, result);
   findPrintMargins(model, result);
-  proveOutOfReach(model, options, result);
+  proveOutOfReach(model, foundation.states, result);
   if (result.cavity.status != CavityStatus::NoRoom) return result;
 
   const Stopwatch time;

@@ -78,12 +78,11 @@ struct Foundation {
   Coarsening coarse;
   std::optional<OptimalBound> bound;
   std::optional<OpenedSet> deliverable; ///< with the bound
+  /// In which the best possible body is to serve the goal, with the bound: where there is more than
+  /// one with every level of contents between the limit's cells.
+  Fillings states;
   double secondsBound = 0.0, secondsCrossings = 0.0;
 };
-
-/// All states in which the best possible body is to serve the goal, where there is more than one
-/// with every level of contents between the limit's cells.
-Fillings statesOfLimit(const Preparation& model, const Options& options);
 
 /// \throw InvalidInput when the model crosses itself
 Foundation coarsen(const Preparation& model, const Options& options, ProgressBar& bar);

@@ -155,6 +155,27 @@ RegionParts admissibleParts(const TriangleTree& surface, double wall, int cells)
   return all;
 }
 
+RegionParts resolvedParts(const TriangleTree& surface, double wall) {
+  constexpr int kRounds = 3; // what coarse cells say of the width is not exact
+  constexpr double kAcross = 3.0;
+  constexpr double kMost = 20000.0; // at the border
+  constexpr double kNearEnough = 0.8;
+  const Vec3 extent =
+      (surface.vertices().colwise().maxCoeff() - surface.vertices().colwise().minCoeff())
+          .transpose();
+  RegionParts parts = admissibleParts(surface, wall);
+  for (int round = 0; round < kRounds && !parts.parts.empty(); ++round) {
+    const double area = borderArea(parts);
+    if (area <= 0.0) break;
+    const double width = 2.0 * cellsOf(parts).col(0).sum() / area;
+    const double edge = std::max(width / kAcross, std::sqrt(kCubesPerArea * area / kMost));
+    if (edge > kNearEnough * parts.edge) break;
+    const double cells = extent.prod() / std::pow(edge, 3);
+    parts = admissibleParts(surface, wall, static_cast<int>(std::min(cells, 1e9)));
+  }
+  return parts;
+}
+
 AdmissibleCells cellsOf(const RegionParts& region) {
   const double cellEdge = region.edge;
   std::vector<Moments> result;
@@ -203,12 +224,13 @@ AdmissibleCells admissibleCells(const TriangleTree& surface, double wall, int ce
   return cellsOf(admissibleParts(surface, wall, cells));
 }
 
-std::vector<double> layerHeights(const TriangleTree& surface, int cells) {
-  const Vec3 low = surface.vertices().colwise().minCoeff();
-  const Vec3 high = surface.vertices().colwise().maxCoeff();
-  const double edge = cellEdge(high - low, cells);
+std::vector<double> layerHeights(const TriangleTree& surface, double edge) {
+  constexpr double kMost = 100.0;
+  const double low = surface.vertices().col(2).minCoeff();
+  const double high = surface.vertices().col(2).maxCoeff();
+  const double step = edge * std::ceil((high - low) / (kMost * edge));
   std::vector<double> heights;
-  for (int i = 1; low.z() + i * edge < high.z(); ++i) heights.push_back(low.z() + i * edge);
+  for (int i = 1; low + i * step < high; ++i) heights.push_back(low + i * step);
   return heights;
 }
 

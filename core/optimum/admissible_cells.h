@@ -29,6 +29,9 @@ struct RegionParts {
 /// The cubes that `admissibleCells` are made of, see there.
 RegionParts admissibleParts(const TriangleTree& surface, double wall, int cells = 20000);
 
+/// The same with smaller cells where the rooms are narrow, a few across their mean width.
+RegionParts resolvedParts(const TriangleTree& surface, double wall);
+
 /// The border is taken as a plane in each part of a cell.
 AdmissibleCells cellsOf(const RegionParts& region);
 
@@ -44,7 +47,8 @@ double borderArea(const RegionParts& region);
 /// \pre the surface is closed and outward
 AdmissibleCells admissibleCells(const TriangleTree& surface, double wall, int cells = 20000);
 
-/// The heights between the layers of these cells, ascending: none of them cuts a cell.
-std::vector<double> layerHeights(const TriangleTree& surface, int cells = 20000);
+/// Heights between layers of cells of the given edge, ascending: none of them cuts a cell. All of
+/// them, or some where there are very many.
+std::vector<double> layerHeights(const TriangleTree& surface, double edge);
 
 } // namespace massprops

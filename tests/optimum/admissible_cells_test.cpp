@@ -42,6 +42,22 @@ TEST(AdmissibleCells, LeaveOutWhatIsOutsideWhereTheWallIsThinnerThanACell) {
   EXPECT_NEAR(cells.col(0).sum(), volume - area * wall, 1e-2 * volume);
 }
 
+TEST(AdmissibleCells, AreSmallerWhereRoomsAreNarrow) {
+  const double tube = 0.06;
+  const double wall = 0.045;
+  const TriangleMesh outer = torus(1.0, tube, 192, 96);
+  const TriangleTree tree = treeOf(outer);
+  const double volume = 2 * kPi * kPi * (tube - wall) * (tube - wall);
+  const RegionParts coarse = admissibleParts(tree, wall);
+  const RegionParts fine = resolvedParts(tree, wall);
+  EXPECT_LT(fine.edge, 0.5 * coarse.edge);
+  EXPECT_NEAR(cellsOf(fine).col(0).sum(), volume, 0.02 * volume);
+  EXPECT_GT(cellsOf(coarse).col(0).sum(), 1.05 * volume);
+  // Where rooms are wide they are those of the other function.
+  EXPECT_EQ(resolvedParts(treeOf(sphere(20)), 0.1).edge,
+            admissibleParts(treeOf(sphere(20)), 0.1).edge);
+}
+
 TEST(AdmissibleCells, AreNoneWhereTheWallIsTooThick) {
   const TriangleMesh outer = box({1.0, 1.0, 1.0}, 1);
   EXPECT_EQ(admissibleCells(treeOf(outer), 0.6).rows(), 0);

@@ -160,7 +160,8 @@ struct TwoArms {
   Fillings everyLevel = ends;
 
   TwoArms() {
-    for (const double height : layerHeights(surface)) everyLevel.push_back({0.6, height});
+    for (const double height : layerHeights(surface, admissibleParts(surface, posed.wall).edge))
+      everyLevel.push_back({0.6, height});
   }
 };
 
