@@ -1,0 +1,307 @@
+// Models as people publish them: every goal, wall and shape of cavity that is asked for, a process
+// each, judged by the code of tests/judge, which shares none with the library.
+// benchmarks/results.md keeps summaries with the sources of the models.
+//
+// usage: wild walls shapes goals files…
+//   walls   in per cent of the diagonal: 1,2
+//   shapes  entries of cavity_shape: 0,1,2
+//   goals   names below, or all: stand,mass. Where it says so the contact is an ellipse with half
+//           axes of a fiftieth of the diagonal, for models that touch the ground in a point.
+#include "core/base/parallel.h"
+#include "core/base/stopwatch.h"
+#include "core/pipeline.h"
+#include "core/vcg_conversion.h"
+#include "judge/checks.h"
+#include "judge/guarantee.h"
+
+#include <vcg/complex/algorithms/clean.h>
+#include <wrap/io_trimesh/import.h>
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <functional>
+#include <map>
+#include <sstream>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace {
+
+using namespace massprops;
+
+struct Vertex;
+struct Face;
+struct Used : vcg::UsedTypes<vcg::Use<Vertex>::AsVertexType, vcg::Use<Face>::AsFaceType> {};
+struct Vertex : vcg::Vertex<Used, vcg::vertex::Coord3f, vcg::vertex::BitFlags> {};
+struct Face : vcg::Face<Used, vcg::face::VertexRef, vcg::face::BitFlags> {};
+struct Mesh : vcg::tri::TriMesh<std::vector<Vertex>, std::vector<Face>> {};
+
+/// As the host opens it, equal vertices merged, with a longest side of 100.
+TriangleMesh readMesh(const std::string& path) {
+  Mesh mesh;
+  int mask = 0;
+  if (vcg::tri::io::Importer<Mesh>::Open(mesh, path.c_str(), mask) != 0 && mesh.FN() == 0)
+    return {};
+  vcg::tri::Clean<Mesh>::RemoveDuplicateVertex(mesh);
+  vcg::tri::Clean<Mesh>::RemoveUnreferencedVertex(mesh);
+  if (mesh.VN() == 0) return {};
+  TriangleMesh result = fromVcg(mesh, Placement::Identity());
+  const double side =
+      (result.vertices.colwise().maxCoeff() - result.vertices.colwise().minCoeff()).maxCoeff();
+  // As a float mesh stores it.
+  result.vertices = (result.vertices * (100.0 / side)).cast<float>().cast<double>().eval();
+  return result;
+}
+
+struct Asked {
+  const char* name;
+  GoalKind goal;
+  const char* verdict; ///< key of what the goal is judged by
+  double small;        ///< a gain below this is judged by itself
+  std::function<void(Options&, double diagonal)> change = [](Options&, double) {};
+};
+
+void standOnEllipse(Options& options, double diagonal) {
+  options.radiusX = options.radiusY = 0.02 * diagonal;
+}
+
+const std::vector<Asked>& goals() {
+  static const std::vector<Asked> list = {
+      {"stand", GoalKind::Stand, "tip_angle", 0.2},
+      {"stand_on_ellipse", GoalKind::Stand, "tip_angle", 0.2, standOnEllipse},
+      {"spin", GoalKind::Spin, "axis_tilt", 0.2},
+      {"yo_yo", GoalKind::YoYo, "axis_tilt", 0.2},
+      {"filled_on_ellipse", GoalKind::StandEmptyAndFilled, "tip_angle_filled", 0.2,
+       [](Options& options, double diagonal) {
+         standOnEllipse(options, diagonal);
+         options.fillDensity = 1.0;
+       }},
+      {"roll_upright", GoalKind::RollUpright, "rest_tilt", 0.2},
+      {"float", GoalKind::Float, "heel_angle", 0.2},
+      {"hang", GoalKind::Hang, "hanging_angle", 0.2},
+      {"mass", GoalKind::Mass, "mass", 0.01},
+  };
+  return list;
+}
+
+struct Line {
+  char text[400] = "";
+  enum Kind { Served, NothingFits, Refused, Failed } kind = Failed;
+  bool solved = false;
+  bool isSmall = false; ///< the gain that is possible
+  bool isBroken = false;
+  double gap = -1.0;
+  double cpu = 0.0;
+};
+
+double cpuSeconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+template <class T>
+T valueOf(const Result& result, const std::string& key, T otherwise) {
+  for (const auto& [name, value] : result.report.entries) {
+    if (name == key) return std::get<T>(value);
+  }
+  return otherwise;
+}
+
+double number(const Result& result, const std::string& key) {
+  return valueOf<double>(result, key, NAN);
+}
+
+/// What the result breaks of what is promised for every model; empty: nothing.
+std::string broken(const TriangleMesh& outer, const TriangleMesh& inner, double wall,
+                   const Result& result) {
+  if (!testing::isClosedAndOriented(inner)) return "not closed";
+  if (testing::intersectingPairs(inner) != 0) return "crosses itself";
+  if (testing::intersectingPairs(inner, outer) != 0) return "crosses the outer surface";
+  if (!testing::isInside(inner, outer)) return "not inside";
+  if (testing::separation(inner, outer).least < wall) return "a wall too thin";
+  // Both layers together bound the material.
+  const double volume = testing::quadratureMoments(outer)[0] + testing::quadratureMoments(inner)[0];
+  const double reported = number(result, "volume_after");
+  return std::abs(volume - reported) <= 1e-6 * std::abs(reported) ? "" : "another volume";
+}
+
+Line measure(const std::string& path, const Asked& asked, double wallShare, CavityShape shape) {
+  Line line;
+  const std::string file = path.substr(path.find_last_of('/') + 1);
+  TriangleMesh model = readMesh(path);
+  const double diagonal =
+      (model.vertices.colwise().maxCoeff() - model.vertices.colwise().minCoeff()).norm();
+  Options options;
+  options.goal = asked.goal;
+  options.cavityShape = shape;
+  options.innerLowerBound = wallShare * diagonal;
+  options.representable = [](const Points& points) {
+    return Points(points.cast<float>().cast<double>());
+  };
+  asked.change(options, diagonal);
+  const int length = std::snprintf(line.text, sizeof line.text, "%-38.38s %7ld %-17s %4.3g %d ",
+                                   file.c_str(), static_cast<long>(model.faces.rows()), asked.name,
+                                   100.0 * wallShare, static_cast<int>(shape));
+  char* rest = line.text + length;
+  const std::size_t room = sizeof line.text - static_cast<std::size_t>(length);
+  const double before = cpuSeconds();
+  const Stopwatch time;
+  Result result;
+  try {
+    result = optimizeMassProperties(model, options);
+  } catch (const std::exception& error) {
+    line.kind = Line::Refused;
+    line.cpu = cpuSeconds() - before;
+    std::snprintf(rest, room, "refused: %.160s", error.what());
+    return line;
+  }
+  const double seconds = time.seconds();
+  line.cpu = cpuSeconds() - before;
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const std::string verdict = asked.verdict;
+  const double solid = number(result, verdict + "_before");
+  const double limit = number(result, verdict + "_limit");
+  line.gap = number(result, "gap_to_limit");
+  line.solved = std::get<bool>(result.report.at("solved"));
+  const double after = number(result, verdict + "_after");
+  line.isSmall = asked.goal == GoalKind::Mass
+                     ? solid - after < (1.0 - line.gap) * asked.small * solid
+                     : std::abs(limit - solid) < asked.small;
+  line.kind = result.inner.faces.rows() > 0 ? Line::Served : Line::NothingFits;
+  std::string fault;
+  if (line.kind == Line::Served) {
+    const TriangleMesh& outer = result.outer ? *result.outer : model;
+    fault = broken(outer, result.inner, *options.innerLowerBound, result);
+    line.isBroken = !fault.empty();
+  }
+  const std::string delivered = valueOf<std::string>(result, "cavity_shape", "");
+  std::snprintf(
+      rest, room, "%-4s %8.3f %8.3f %8.3f %7.2f%%%s %8.1e %7ld %7.2f %7.2f %5.0f  %s%.40s",
+      line.kind == Line::NothingFits ? "none"
+      : line.solved                  ? "yes"
+                                     : "no",
+      solid, after, limit, 100.0 * line.gap, line.isSmall ? "*" : " ",
+      number(result, "max_constraint_violation"), static_cast<long>(result.inner.faces.rows()),
+      line.cpu, seconds, static_cast<double>(usage.ru_maxrss) / 1024.0,
+      fault.empty() ? "" : ("BROKEN: " + fault + "; ").c_str(), delivered.c_str());
+  return line;
+}
+
+/// In a process of its own: memory is that of the case, and a crash or a case without an end is
+/// only its own.
+Line measureApart(const std::string& path, const Asked& asked, double wall, CavityShape shape) {
+  constexpr unsigned kSeconds = 120;
+  int ends[2];
+  Line line;
+  if (pipe(ends) != 0) return line;
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(kSeconds);
+    line = measure(path, asked, wall, shape);
+    if (write(ends[1], &line, sizeof line) != static_cast<ssize_t>(sizeof line)) _exit(1);
+    _exit(0);
+  }
+  close(ends[1]);
+  std::size_t got = 0;
+  while (got < sizeof line) {
+    const auto n = read(ends[0], reinterpret_cast<char*>(&line) + got, sizeof line - got);
+    if (n <= 0) break;
+    got += static_cast<std::size_t>(n);
+  }
+  close(ends[0]);
+  int status = 0;
+  waitpid(child, &status, 0);
+  if (got == sizeof line) return line;
+  line = Line{};
+  std::snprintf(line.text, sizeof line.text, "%-38.38s %7s %-17s %4.3g %d FAILED: %s",
+                path.substr(path.find_last_of('/') + 1).c_str(), "", asked.name, 100.0 * wall,
+                static_cast<int>(shape),
+                WIFSIGNALED(status) ? strsignal(WTERMSIG(status)) : "no answer");
+  return line;
+}
+
+std::vector<std::string> words(const char* list) {
+  std::vector<std::string> result;
+  std::stringstream stream(list);
+  for (std::string word; std::getline(stream, word, ',');) result.push_back(word);
+  return result;
+}
+
+void summarize(const std::string& title, const std::vector<Line>& lines) {
+  std::array<int, 4> count{};
+  std::vector<double> gaps;
+  std::vector<double> seconds;
+  int solved = 0;
+  int broken = 0;
+  int small = 0;
+  for (const Line& line : lines) {
+    ++count[static_cast<std::size_t>(line.kind)];
+    solved += static_cast<int>(line.solved);
+    broken += static_cast<int>(line.isBroken);
+    if (line.kind != Line::Served && line.kind != Line::NothingFits) continue;
+    seconds.push_back(line.cpu);
+    if (line.isSmall) {
+      ++small;
+    } else if (std::isfinite(line.gap)) {
+      gaps.push_back(line.gap);
+    }
+  }
+  std::sort(gaps.begin(), gaps.end());
+  std::sort(seconds.begin(), seconds.end());
+  const auto middle = [](const std::vector<double>& v) {
+    return v.empty() ? NAN : v[v.size() / 2];
+  };
+  std::printf("%-32s %3zu models: hollow %d, nothing fits %d, refused %d, failed %d; solved %d, "
+              "broken %d; gap median %.2f %%, largest %.2f %%, above 3 %%: %ld of %zu, small gains "
+              "apart: %d; CPU median %.2f s, largest %.2f s\n",
+              title.c_str(), lines.size(), count[Line::Served], count[Line::NothingFits],
+              count[Line::Refused], count[Line::Failed], solved, broken, 100.0 * middle(gaps),
+              gaps.empty() ? NAN : 100.0 * gaps.back(),
+              static_cast<long>(gaps.end() - std::upper_bound(gaps.begin(), gaps.end(), 0.03)),
+              gaps.size(), small, middle(seconds), seconds.empty() ? NAN : seconds.back());
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 5) {
+    std::printf("usage: wild walls shapes goals files…\n");
+    return 2;
+  }
+  const std::vector<std::string> wanted = words(argv[3]);
+  std::printf("%-38s %7s %-17s %4s %s %-4s %8s %8s %8s %8s %8s %7s %7s %7s %5s\n", "model", "faces",
+              "goal", "wall", "s", "done", "before", "after", "limit", "gap", "violat.", "inner",
+              "CPU s", "s", "MB");
+  std::map<std::string, std::vector<Line>> byTitle;
+  for (int i = 4; i < argc; ++i) {
+    for (const Asked& asked : goals()) {
+      if (wanted.front() != "all" &&
+          std::find(wanted.begin(), wanted.end(), asked.name) == wanted.end())
+        continue;
+      for (const std::string& wall : words(argv[1])) {
+        for (const std::string& shape : words(argv[2])) {
+          const Line line = measureApart(argv[i], asked, std::stod(wall) / 100.0,
+                                         static_cast<CavityShape>(std::stoi(shape)));
+          std::printf("%s\n", line.text);
+          std::fflush(stdout);
+          byTitle[std::string(asked.name) + ", wall " + wall + " %, shape " + shape].push_back(
+              line);
+        }
+      }
+    }
+  }
+  for (const auto& [title, lines] : byTitle) summarize(title, lines);
+}
