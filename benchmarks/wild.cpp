@@ -187,7 +187,7 @@ Line measure(const std::string& path, const Asked& asked, double wallShare, Cavi
     fault = broken(outer, result.inner, *options.innerLowerBound, result);
     line.isBroken = !fault.empty();
   }
-  const std::string delivered = valueOf<std::string>(result, "cavity_shape", "");
+  const auto delivered = valueOf<std::string>(result, "cavity_shape", "");
   std::snprintf(
       rest, room, "%-4s %8.3f %8.3f %8.3f %7.2f%%%s %8.1e %7ld %7.2f %7.2f %5.0f  %s%.40s",
       line.kind == Line::NothingFits ? "none"
@@ -297,8 +297,9 @@ int main(int argc, char** argv) {
                                          static_cast<CavityShape>(std::stoi(shape)));
           std::printf("%s\n", line.text);
           std::fflush(stdout);
-          byTitle[std::string(asked.name) + ", wall " + wall + " %, shape " + shape].push_back(
-              line);
+          std::stringstream title;
+          title << asked.name << ", wall " << wall << " %, shape " << shape;
+          byTitle[title.str()].push_back(line);
         }
       }
     }
