@@ -140,7 +140,11 @@ std::string broken(const TriangleMesh& outer, const TriangleMesh& inner, double 
 Line measure(const std::string& path, const Asked& asked, double wallShare, CavityShape shape) {
   Line line;
   const std::string file = path.substr(path.find_last_of('/') + 1);
-  TriangleMesh model = readMesh(path);
+  const TriangleMesh model = readMesh(path);
+  if (model.faces.rows() == 0) {
+    std::snprintf(line.text, sizeof line.text, "%-38.38s cannot be read", file.c_str());
+    return line;
+  }
   const double diagonal =
       (model.vertices.colwise().maxCoeff() - model.vertices.colwise().minCoeff()).norm();
   Options options;

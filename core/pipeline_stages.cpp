@@ -339,6 +339,8 @@ Search search(const Preparation& model, const Foundation& foundation, const Opti
   result.verdictBefore = makeVerdict(options, model.posed, model.posed.vertices);
   judge(model, options, result);
   considerBestPossible(model, foundation, options, bar, result);
+  if (result.task.bound && result.cavity.status == CavityStatus::Found)
+    raiseTo(result.task, hollowBody(result.task, result.cavity), *result.task.bound);
   findPrintMargins(model, result);
   proveOutOfReach(model, foundation.states, result);
   if (result.cavity.status != CavityStatus::NoRoom) return result;

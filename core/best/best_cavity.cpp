@@ -11,11 +11,14 @@
 #include "core/reduced/search_strategy.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
 namespace massprops {
 namespace {
+
+constexpr double kLeastEdge = 1.0 / 1000.0; // of cubes
 
 Points delivered(const CavityTask& task, const Points& working) {
   return task.deliverable ? task.deliverable(working) : working;
@@ -169,23 +172,8 @@ bool leavesRoom(const TriangleTree& surface, double wall) {
   return found && found->contour.mesh.faces.rows() > 0;
 }
 
-} // namespace
-
-OpenedSet deliverableSet(const TriangleTree& surface, double wall, const RegionParts& behindWall,
-                         const AdmissibleCells& cells) {
-  constexpr double kFewest = 15000.0;
-  constexpr double kMost = 50000.0;
-  constexpr double kAcross = 9.0; // a room of the mean width
-  constexpr double kLeastEdge = 1.0 / 1000.0;
-  const double area = borderArea(behindWall);
-  const double width = 2.0 * cells.col(0).sum() / area;
-  const double edge =
-      std::clamp(width / kAcross, edgeOfCubes(area, kMost), edgeOfCubes(area, kFewest));
-  return openedSet(surface, wall, std::max(edge, kLeastEdge));
-}
-
-CavityResult bestPossibleCavity(const CavityTask& task, const OpenedSet& deliverable) {
-  const Stopwatch time;
+/// In cubes of the set's edge.
+CavityResult cavityOf(const CavityTask& task, const OpenedSet& deliverable) {
   const LayeredQuadric& quadric = task.bound->worth;
   double wall = task.wall;
   CavityResult result;
@@ -218,6 +206,45 @@ CavityResult bestPossibleCavity(const CavityTask& task, const OpenedSet& deliver
     } else if (!servesBetter(task, hollowBody(task, result), inputBody(task))) {
       result.status = CavityStatus::NoGain;
     }
+  }
+  return result;
+}
+
+} // namespace
+
+OpenedSet deliverableSet(const TriangleTree& surface, double wall, const RegionParts& behindWall,
+                         const AdmissibleCells& cells) {
+  constexpr double kFewest = 10000.0;
+  constexpr double kMost = 50000.0;
+  constexpr double kAcross = 9.0; // a room of the mean width
+  const double area = borderArea(behindWall);
+  const double width = 2.0 * cells.col(0).sum() / area;
+  const double edge =
+      std::clamp(width / kAcross, edgeOfCubes(area, kMost), edgeOfCubes(area, kFewest));
+  return openedSet(surface, wall, std::max(edge, kLeastEdge));
+}
+
+CavityResult bestPossibleCavity(const CavityTask& task, const OpenedSet& deliverable) {
+  const Stopwatch time;
+  CavityResult result = cavityOf(task, deliverable);
+  const Body solid = inputBody(task);
+  // What cubes lose goes with the square of their edge.
+  constexpr int kTimes = 2;
+  constexpr double kEnough = 0.012; // of what is possible is left
+  constexpr double kWanted = 0.008;
+  double edge = deliverable.edge;
+  for (int i = 0; i < kTimes; ++i) {
+    const double gap = result.status == CavityStatus::Found
+                           ? gapToBound(*task.bound, solid, hollowBody(task, result))
+                           : 1.0;
+    if (gap <= kEnough || result.status == CavityStatus::NoRoom) break;
+    edge *= std::clamp(std::sqrt(kWanted / gap), 0.5, 0.8);
+    if (edge < kLeastEdge) break;
+    CavityResult finer = cavityOf(task, openedSet(task.surface, task.wall, edge));
+    finer.effort += result.effort;
+    const bool isBetter = servesBetter(task, finer, result);
+    result.effort = finer.effort;
+    if (isBetter) result = std::move(finer);
   }
   result.effort.secondsOptimization = time.seconds() - result.effort.secondsInspection;
   return result;

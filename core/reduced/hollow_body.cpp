@@ -79,4 +79,18 @@ double gapToBound(const OptimalBound& bound, const Body& before, const Body& aft
                     : gap(after.violation, bound.violation, before.violation);
 }
 
+void raiseTo(const CavityTask& task, const Body& delivered, OptimalBound& bound) {
+  Body ours = delivered;
+  ours.objective = ours.momentObjective;
+  Body best = ours;
+  best.objective = bound.objective;
+  best.violation = bound.violation;
+  best.measure = bound.measure;
+  if (!servesBetter(task, ours, best)) return;
+  bound.massMoments = ours.mass;
+  bound.objective = ours.objective;
+  bound.violation = ours.violation;
+  bound.measure = ours.measure;
+}
+
 } // namespace massprops
