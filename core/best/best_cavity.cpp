@@ -40,7 +40,7 @@ CavityResult resultOf(const CavityTask& task, const TriangleMesh& mesh) {
   return result;
 }
 
-/// A contour and what it was before its vertices on the quadric moved.
+/// A contour, and what it was before vertices moved, which passes the inspection.
 struct Candidate {
   Contour contour;
   Points before;
@@ -64,9 +64,9 @@ public:
     evaluations_ += polish(task_, quadric_, Moving::CutAndCreases, edge_, {}, contour).evaluations;
   }
 
-  /// Not inspected.
-  Candidate adjusted(const Contour& contour) {
-    Candidate candidate{contour, contour.mesh.vertices, {}};
+  /// Not inspected. `before`: where the vertices come from.
+  Candidate adjusted(const Contour& contour, const Points& before) {
+    Candidate candidate{contour, before, {}};
     adjust({}, candidate);
     return candidate;
   }
@@ -141,8 +141,8 @@ CavityResult polished(const CavityTask& task, const LayeredQuadric& quadric, dou
   Contour whole = found.contour;
   polishing.moveCreases(whole);
   if (keepWall(task.surface, wall, whole.mesh, &found.contour.mesh.vertices).empty())
-    candidates.push_back(polishing.adjusted(whole));
-  candidates.push_back(polishing.adjusted(found.contour));
+    candidates.push_back(polishing.adjusted(whole, found.contour.mesh.vertices));
+  candidates.push_back(polishing.adjusted(found.contour, found.contour.mesh.vertices));
   std::stable_sort(candidates.begin(), candidates.end(),
                    [&](const Candidate& a, const Candidate& b) {
                      return servesBetter(task, a.result, b.result);
@@ -244,7 +244,8 @@ CavityResult bestPossibleCavity(const CavityTask& task, const OpenedSet& deliver
     finer.effort += result.effort;
     const bool isBetter = servesBetter(task, finer, result);
     result.effort = finer.effort;
-    if (isBetter) result = std::move(finer);
+    if (!isBetter) break;
+    result = std::move(finer);
   }
   result.effort.secondsOptimization = time.seconds() - result.effort.secondsInspection;
   return result;
