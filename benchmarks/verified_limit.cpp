@@ -80,17 +80,17 @@ std::optional<Levels> levelsOf(const Preparation& model, const Options& options,
   const Progress silent;
   ProgressBar bar(silent);
   const Foundation foundation = coarsen(model, options, bar);
-  if (!foundation.bound || foundation.bound->levels.empty()) return std::nullopt;
+  if (!foundation.possible || foundation.possible->bound.levels.empty()) return std::nullopt;
   const LinearConditions conditions = model.goal->conditions().front();
-  const LevelBound& bound = foundation.bound->levels.front();
+  const LevelBound& bound = foundation.possible->bound.levels.front();
   Levels levels{};
   levels.solid = c.inUnit(levelReached(conditions, model.solidMoments));
   levels.estimate = c.inUnit(bound.reached);
   const auto proved = [&](std::size_t cubes, double& seconds) {
     const std::clock_t start = std::clock();
     const std::optional<double> level =
-        provedLevel(conditions, bound, model.solidMoments, foundation.states, model.surface,
-                    model.posed.wall, cubes);
+        provedLevel(conditions, bound, model.solidMoments, foundation.possible->states,
+                    model.surface, model.posed.wall, cubes);
     seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     return level ? c.inUnit(*level) : std::numeric_limits<double>::infinity();
   };

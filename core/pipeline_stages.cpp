@@ -72,7 +72,7 @@ CavityTask taskOf(const Goal& goal, const Preparation& model, const Foundation& 
   if (posed.open) task.open = &*posed.open;
   task.inputMoments = model.solidMoments + moments(posed.cavities.vertices, posed.cavities.faces);
   task.wall = posed.wall;
-  task.bound = foundation.bound;
+  if (foundation.possible) task.bound = foundation.possible->bound;
   task.deliverable = [&](const Points& working) {
     return toWorking(posed.frame, representable(options, toModel(posed.frame, working)));
   };
@@ -127,7 +127,7 @@ Search searchOffsets(const Preparation& model, const Foundation& foundation, con
   Search result{taskFor(*model.goal, kSlantedClearance), {}};
   bar.show(model.schedule.search, "Optimization");
   const std::unique_ptr<Goal> instead = model.goal->insteadOfConstraints();
-  const bool isOutOfReach = foundation.bound && !foundation.bound->isReachable();
+  const bool isOutOfReach = foundation.possible && !foundation.possible->bound.isReachable();
   const std::unique_ptr<Goal> relaxed = isOutOfReach ? nullptr : model.goal->relaxed();
   if (relaxed) {
     CavityTask task = taskFor(*relaxed, kSlantedClearance);
@@ -158,14 +158,38 @@ void judge(const Preparation& model, const Options& options, Search& found) {
                   isHollow ? &cavity : nullptr);
 }
 
+Fillings statesOfLimit(const TriangleTree& surface, double edge, Fillings states) {
+  if (states.size() < 2) return states;
+  const double density = states.back().density;
+  for (const double height : layerHeights(surface, edge)) states.push_back({density, height});
+  return states;
+}
+
+/// Empty: the wall leaves no room. `solid`: moments of the body within the surface.
+std::optional<Possible> possibleWithin(const TriangleTree& surface, double wall, const Goal& goal,
+                                       const Moments& solid, const Options& options) {
+  const RegionParts behindWalls = resolvedParts(surface, wall);
+  const AdmissibleCells cells = cellsOf(behindWalls);
+  if (cells.rows() == 0) return std::nullopt;
+  const Weights& weights = options.weights;
+  Fillings states = statesOfLimit(surface, behindWalls.edge, fillingsSeenBy(options));
+  OptimalBound bound = optimalBound(goal, weights, solid, states, cells);
+  OpenedSet deliverable = deliverableSet(surface, wall, behindWalls, cells);
+  const AdmissibleCells wide = cellsOf(partsWithin(deliverable, behindWalls));
+  if (wide.col(0).sum() < cells.col(0).sum())
+    bound = withBodyWithin(wide, std::move(bound), goal, weights, solid, states);
+  return Possible{std::move(bound), std::move(deliverable), std::move(states)};
+}
+
 /// Why the best possible cavity is worth looking for; empty: it is not.
-std::string reasonForBestPossible(const Options& options, const Search& found) {
+std::string reasonForBestPossible(const Options& options, const OptimalBound& bound,
+                                  const Search& found) {
   if (options.cavityShape == CavityShape::BestPossible) return "as asked for";
   if (found.cavity.status == CavityStatus::NoRoom) return "the offset surface has no room";
   const bool isFound = found.cavity.status == CavityStatus::Found;
   const Body before = inputBody(found.task);
   const Body after = isFound ? hollowBody(found.task, found.cavity) : before;
-  const double gap = gapToBound(*found.task.bound, before, after);
+  const double gap = gapToBound(bound, before, after);
   constexpr double kFar = 0.03;
   // With a weight on smoothness it is far by intention.
   if (gap > kFar && options.weights.smoothness == 0.0) {
@@ -177,29 +201,72 @@ std::string reasonForBestPossible(const Options& options, const Search& found) {
   return isSolved || gap == 0.0 ? "" : "the offset surface misses the goal";
 }
 
-/// Takes it where it is asked for or serves better.
+/// A body whose outer surface has moved, as one that rests.
+struct Moved {
+  std::unique_ptr<const Goal> own; ///< null: the goal does not depend on the outer surface
+  TriangleTree surface;
+  Moments solidMoments;
+
+  Moved(const Preparation& model, const CavityTask& search, const Points& outer)
+      : own(search.goalFor ? search.goalFor(outer) : nullptr),
+        surface(outer, model.posed.faces, TriangleTree::Order::Spatial),
+        solidMoments(moments(outer, model.posed.faces)) {}
+
+  const Goal& goal(const CavityTask& search) const { return own ? *own : search.goal; }
+
+  CavityTask task(const CavityTask& search, const Possible& possible) const {
+    CavityTask task{surface, goal(search), {}, search.weights};
+    task.model.surface = search.model.surface;
+    task.model.fillings = search.model.fillings;
+    task.model.solidMoments = solidMoments;
+    task.inputMoments = search.inputMoments;
+    task.wall = search.wall;
+    task.bound = possible.bound;
+    task.deliverable = search.deliverable;
+    return task;
+  }
+};
+
+/// Takes it where it is asked for or serves better: within the outer surface as it has become.
 void considerBestPossible(const Preparation& model, const Foundation& foundation,
                           const Options& options, ProgressBar& bar, Search& found) {
   found.shapeReason = "as asked for";
   if (options.cavityShape == CavityShape::Offset) return;
-  if (moves(options) || model.posed.open) {
-    found.shapeReason = "the best possible cavity needs a closed surface that rests";
+  if (model.posed.open) {
+    found.shapeReason = "the best possible cavity needs a closed surface";
     return;
   }
-  if (!found.task.bound) {
+  const bool hasMoved = moves(options) && found.cavity.status == CavityStatus::Found;
+  const std::unique_ptr<const Moved> moved =
+      moves(options) ? std::make_unique<const Moved>(
+                           model, found.task, hasMoved ? found.cavity.outer : model.posed.vertices)
+                     : nullptr;
+  const std::optional<Possible> possibleInMoved =
+      moved ? possibleWithin(moved->surface, model.posed.wall, moved->goal(found.task),
+                             moved->solidMoments, options)
+            : std::nullopt;
+  const std::optional<Possible>& possible = moved ? possibleInMoved : foundation.possible;
+  if (!possible) {
     found.shapeReason = "what is possible is not known";
     return;
   }
   found.shapeReason = "it comes near to what is possible";
-  const std::string reason = reasonForBestPossible(options, found);
+  const std::string reason = reasonForBestPossible(options, possible->bound, found);
   if (reason.empty()) return;
   bar.show(Schedule::kEnd, "Best possible cavity");
   // With the levels of contents that its quadric was found for.
   Fillings& fillings = found.task.model.fillings;
-  if (found.task.bound->binding.size() > fillings.size()) fillings = found.task.bound->binding;
-  CavityResult best = bestPossibleCavity(found.task, *foundation.deliverable);
+  if (possible->bound.binding.size() > fillings.size()) fillings = possible->bound.binding;
+  CavityResult best;
+  if (moved) {
+    best = bestPossibleCavity(moved->task(found.task, *possible), possible->deliverable);
+    best.outer = moved->surface.vertices();
+    best.outerOffsets = found.cavity.outerOffsets;
+  } else {
+    best = bestPossibleCavity(found.task, possible->deliverable);
+  }
   best.effort += found.cavity.effort;
-  if (options.cavityShape != CavityShape::BestPossible &&
+  if ((options.cavityShape != CavityShape::BestPossible || hasMoved) &&
       !servesBetter(found.task, best, found.cavity)) {
     found.shapeReason = "the best possible cavity's triangles serve no better";
     return;
@@ -221,13 +288,6 @@ void findPrintMargins(const Preparation& model, Search& found) {
   found.margins = printMargins(found.task, found.cavity, *found.verdictAfter,
                                kPerimeters / model.posed.frame.length);
   found.secondsMargins = time.seconds();
-}
-
-Fillings statesOfLimit(const TriangleTree& surface, double edge, Fillings states) {
-  if (states.size() < 2) return states;
-  const double density = states.back().density;
-  for (const double height : layerHeights(surface, edge)) states.push_back({density, height});
-  return states;
 }
 
 /// Where not even the bound's body does what the goal asks for: all the proofs that takes, or none.
@@ -286,20 +346,9 @@ Foundation coarsen(const Preparation& model, const Options& options, ProgressBar
   const auto findBound = [&] {
     if (moves(options) || model.posed.open) return;
     const Stopwatch time;
-    const RegionParts behindWalls = resolvedParts(model.surface, model.posed.wall);
-    const AdmissibleCells cells = cellsOf(behindWalls);
-    if (cells.rows() == 0) return;
-    const Goal& goal = *model.goal;
-    const Weights& weights = options.weights;
-    const Fillings& states = result.states =
-        statesOfLimit(model.surface, behindWalls.edge, fillingsSeenBy(options));
-    result.bound = optimalBound(goal, weights, model.solidMoments, states, cells);
-    result.deliverable.emplace(deliverableSet(model.surface, model.posed.wall, behindWalls, cells));
-    const AdmissibleCells wide = cellsOf(partsWithin(*result.deliverable, behindWalls));
-    if (wide.col(0).sum() < cells.col(0).sum()) {
-      result.bound =
-          withBodyWithin(wide, std::move(*result.bound), goal, weights, model.solidMoments, states);
-    }
+    std::optional<Possible> possible =
+        possibleWithin(model.surface, model.posed.wall, *model.goal, model.solidMoments, options);
+    if (possible) result.possible.emplace(std::move(*possible));
     result.secondsBound = time.seconds();
   };
   const auto coarsenModel = [&] {
@@ -342,7 +391,7 @@ Search search(const Preparation& model, const Foundation& foundation, const Opti
   if (result.task.bound && result.cavity.status == CavityStatus::Found)
     raiseTo(result.task, hollowBody(result.task, result.cavity), *result.task.bound);
   findPrintMargins(model, result);
-  proveOutOfReach(model, foundation.states, result);
+  if (foundation.possible) proveOutOfReach(model, foundation.possible->states, result);
   if (result.cavity.status != CavityStatus::NoRoom) return result;
 
   const Stopwatch time;

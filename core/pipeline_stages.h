@@ -73,14 +73,19 @@ struct Preparation {
 Preparation prepare(const TriangleMesh& model, const Options& options, ProgressBar& bar,
                     Resolution resolution = Resolution::Coarse);
 
+/// The best of all cavities within an outer surface.
+struct Possible {
+  OptimalBound bound;
+  OpenedSet deliverable;
+  /// In which it is to serve the goal: where there is more than one, with every level of contents
+  /// between the bound's cells.
+  Fillings states;
+};
+
 /// What moves inwards, if anything does, and what the best of all cavities could do.
 struct Foundation {
   Coarsening coarse;
-  std::optional<OptimalBound> bound;
-  std::optional<OpenedSet> deliverable; ///< with the bound
-  /// In which the best possible body is to serve the goal, with the bound: where there is more than
-  /// one with every level of contents between the limit's cells.
-  Fillings states;
+  std::optional<Possible> possible; ///< empty: there is no room, or the surface is open or moves
   double secondsBound = 0.0, secondsCrossings = 0.0;
 };
 

@@ -214,7 +214,7 @@ CavityResult cavityOf(const CavityTask& task, const OpenedSet& deliverable) {
 
 OpenedSet deliverableSet(const TriangleTree& surface, double wall, const RegionParts& behindWall,
                          const AdmissibleCells& cells) {
-  constexpr double kFewest = 10000.0;
+  constexpr double kFewest = 15000.0;
   constexpr double kMost = 50000.0;
   constexpr double kAcross = 9.0; // a room of the mean width
   const double area = borderArea(behindWall);
@@ -230,8 +230,8 @@ CavityResult bestPossibleCavity(const CavityTask& task, const OpenedSet& deliver
   const Body solid = inputBody(task);
   // What cubes lose goes with the square of their edge.
   constexpr int kTimes = 2;
-  constexpr double kEnough = 0.012; // of what is possible is left
-  constexpr double kWanted = 0.008;
+  constexpr double kEnough = 0.015; // of what is possible is left
+  constexpr double kWanted = 0.01;
   double edge = deliverable.edge;
   for (int i = 0; i < kTimes; ++i) {
     const double gap = result.status == CavityStatus::Found

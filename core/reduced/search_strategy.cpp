@@ -13,7 +13,7 @@ namespace massprops {
 namespace {
 
 /// Above this gap another search, with other directions, is worth its time.
-constexpr double kFarFromBound = 0.075;
+constexpr double kFarFromBound = 0.035;
 
 /// A shell is asked for whatever a solid body could do.
 bool isUseless(const CavityTask& task, const CavityResult& cavity) {
