@@ -546,8 +546,10 @@ TEST(Pipeline, IsTheSameBitForBitWhateverTheHeapLooksLike) {
   const std::uint64_t first = figureFingerprint();
   // Blocks of all small sizes, every other one freed, so that new ones get scattered addresses.
   std::vector<std::unique_ptr<char[]>> blocks;
+  constexpr std::size_t kBlocks = 200000;
+  blocks.reserve(kBlocks);
   Random random(31);
-  for (int i = 0; i < 200000; ++i)
+  for (std::size_t i = 0; i < kBlocks; ++i)
     blocks.push_back(std::make_unique<char[]>(static_cast<std::size_t>(16 + 120 * (1 + random()))));
   for (std::size_t i = 0; i < blocks.size(); i += 2) blocks[i].reset();
   EXPECT_EQ(figureFingerprint(), first);

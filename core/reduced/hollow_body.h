@@ -37,8 +37,8 @@ bool servesBetter(const CavityTask& task, const CavityResult& a, const CavityRes
 double gapToBound(const OptimalBound& bound, const Body& before, const Body& after);
 
 /// Puts a body that serves the goal better than the bound's own in its place: what was delivered is
-/// possible, and cells know the region only so well. Smoothness and the outer surface's displacement
-/// do not count.
+/// possible, and cells know the region only so well. Smoothness and the outer surface's
+/// displacement do not count.
 void raiseTo(const CavityTask& task, const Body& delivered, OptimalBound& bound);
 
 } // namespace massprops
