@@ -90,4 +90,23 @@ std::vector<Submesh> componentMeshes(const Points& vertices, const Faces& faces)
   return result;
 }
 
+TriangleMesh assembled(const std::vector<TriangleMesh>& parts) {
+  Eigen::Index vertices = 0;
+  Eigen::Index faces = 0;
+  for (const TriangleMesh& part : parts) {
+    vertices += part.vertices.rows();
+    faces += part.faces.rows();
+  }
+  TriangleMesh result{Points(vertices, 3), Faces(faces, 3)};
+  vertices = faces = 0;
+  for (const TriangleMesh& part : parts) {
+    result.vertices.middleRows(vertices, part.vertices.rows()) = part.vertices;
+    result.faces.middleRows(faces, part.faces.rows()) =
+        part.faces.array() + static_cast<int>(vertices);
+    vertices += part.vertices.rows();
+    faces += part.faces.rows();
+  }
+  return result;
+}
+
 } // namespace massprops
