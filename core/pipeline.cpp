@@ -10,12 +10,11 @@
 namespace massprops {
 namespace {
 
-Result run(const TriangleMesh& model, const Options& options, const Progress& progress) {
-  const Stopwatch total;
-  const ThreadTeam team;
-  ProgressBar bar(progress);
+/// \throw DefectiveSurface when the model is no solid
+Result hollowed(const TriangleMesh& model, const Repairs& mended, const Options& options,
+                ProgressBar& bar) {
   // A solid that stands upright on its contact area, diagonal 1, and what it is to do.
-  const Preparation prepared = prepare(model, options, bar);
+  const Preparation prepared = prepare(model, options, bar, Resolution::Coarse, mended);
   // What moves inwards, its skeleton and harmonics; the best that any cavity could do.
   const Foundation foundation = coarsen(prepared, options, bar);
   // Offsets that serve the goal best, within bounds that close in until nothing crosses; where they
@@ -25,6 +24,31 @@ Result run(const TriangleMesh& model, const Options& options, const Progress& pr
   Result result = deliver(prepared, foundation, found, options, bar);
   result.report = report(prepared, foundation, found, options);
   if (options.showAnswer) draw(prepared, foundation, found, options, bar, result);
+  return result;
+}
+
+/// A model that is no solid is mended first.
+Result hollowedOrMended(const TriangleMesh& model, const Options& options, ProgressBar& bar) {
+  std::string defect;
+  try {
+    return hollowed(model, {}, options, bar);
+  } catch (const DefectiveSurface& surface) {
+    if (!options.mend) throw;
+    defect = surface.what();
+  }
+  const RepairedMesh solid = mend(model, options, bar);
+  try {
+    return hollowed(solid.mesh, solid.repairs, options, bar);
+  } catch (const DefectiveSurface&) {
+    throw DefectiveSurface(defect); // of the given model, which the user knows
+  }
+}
+
+Result run(const TriangleMesh& model, const Options& options, const Progress& progress) {
+  const Stopwatch total;
+  const ThreadTeam team;
+  ProgressBar bar(progress);
+  Result result = hollowedOrMended(model, options, bar);
   result.report.add("seconds_total", total.seconds());
   bar.show(100, "Done");
   return result;

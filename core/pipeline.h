@@ -21,8 +21,8 @@ struct Result {
   TriangleMesh inner;
   /// Distance of every vertex of `inner` from the outer surface.
   Vector innerWall;
-  /// The outer surface when it is not the input's: moved, for `Options::outerUpperBound` > 0,
-  /// without the cavities that the input had already, or with components flipped that faced the
+  /// The outer surface when it is not the input's: mended, moved, for `Options::outerUpperBound` >
+  /// 0, without the cavities that the input had already, or with components flipped that faced the
   /// wrong way.
   std::optional<TriangleMesh> outer;
   /// For `Options::showAnswer`, where there is a cavity or a moved outer surface.
@@ -32,7 +32,8 @@ struct Result {
 
 /// Finds the cavity that makes `model` reach `options.goal`. [MAB15]
 /// `model`: closed, manifold, coherently oriented components that do not cross; any units, any
-/// place. Small defects are mended (repair.h) and reported.
+/// place. Small defects are mended (repair.h) and reported, others where `options.mend` is on
+/// (mending.h).
 /// Same input, same options: same output, bit for bit.
 /// \throw InvalidInput when the model is not such a surface or an option is absurd;
 /// std::runtime_error when a stage fails on it, with what to do about it. A goal out of

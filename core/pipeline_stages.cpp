@@ -8,6 +8,7 @@
 #include "core/best/best_cavity.h"
 #include "core/goals/registry.h"
 #include "core/model/frame.h"
+#include "core/model/mending.h"
 #include "core/reduced/hollow_body.h"
 #include "core/reduced/search_strategy.h"
 
@@ -319,8 +320,9 @@ void proveOutOfReach(const Preparation& model, const Fillings& fillings, Search&
 
 } // namespace
 
-Preparation::Preparation(const TriangleMesh& model, const Options& options, Resolution resolution)
-    : solid(makeSolid(model, options.openSurface, rotationToUp(options.upAxis))),
+Preparation::Preparation(const TriangleMesh& model, const Options& options, Resolution resolution,
+                         const Repairs& mended)
+    : solid(makeSolid(model, options.openSurface, rotationToUp(options.upAxis), mended)),
       posed(pose(solid, options)),
       surface(posed.vertices, posed.open ? posed.open->skin : posed.faces,
               TriangleTree::Order::Spatial),
@@ -331,9 +333,20 @@ Preparation::Preparation(const TriangleMesh& model, const Options& options, Reso
       schedule(scheduleFor(posed.vertices.rows(), options.basisSize, isDecimated)) {}
 
 Preparation prepare(const TriangleMesh& model, const Options& options, ProgressBar& bar,
-                    Resolution resolution) {
+                    Resolution resolution, const Repairs& mended) {
   bar.show(0, "Checking the model");
-  return {model, options, resolution};
+  return {model, options, resolution, mended};
+}
+
+RepairedMesh mend(const TriangleMesh& model, const Options& options, ProgressBar& bar) {
+  bar.show(0, "Mending the model");
+  MendingTask task;
+  const bool isWallGiven = options.innerLowerBound && *options.innerLowerBound > 0.0;
+  task.wall = isWallGiven ? *options.innerLowerBound : kDefaultWall * diagonalOf(model.vertices);
+  task.up = rotationToUp(options.upAxis).transpose() * Vec3::UnitZ();
+  task.keepsOpenings = options.openSurface;
+  task.representable = [&](const Points& points) { return representable(options, points); };
+  return mended(model, task);
 }
 
 Foundation coarsen(const Preparation& model, const Options& options, ProgressBar& bar) {

@@ -53,7 +53,8 @@ enum class Resolution { Coarse, Full };
 /// The model, checked and put upright, and what follows from it alone. Neither copied nor moved,
 /// for its parts refer to each other.
 struct Preparation {
-  Preparation(const TriangleMesh& model, const Options& options, Resolution resolution);
+  Preparation(const TriangleMesh& model, const Options& options, Resolution resolution,
+              const Repairs& mended);
   Preparation(const Preparation&) = delete;
   Preparation& operator=(const Preparation&) = delete;
 
@@ -69,9 +70,14 @@ struct Preparation {
   const double seconds = time.seconds(); ///< all of this took
 };
 
-/// \throw InvalidInput when the model is no solid or an option is absurd
+/// `mended`: what was done to the model already.
+/// \throw DefectiveSurface when the model is no solid; InvalidInput when an option is absurd
 Preparation prepare(const TriangleMesh& model, const Options& options, ProgressBar& bar,
-                    Resolution resolution = Resolution::Coarse);
+                    Resolution resolution = Resolution::Coarse, const Repairs& mended = {});
+
+/// The model as a solid, as far as that can be done.
+/// \throw InvalidInput where it has an opening that is no defect
+RepairedMesh mend(const TriangleMesh& model, const Options& options, ProgressBar& bar);
 
 /// The best of all cavities within an outer surface.
 struct Possible {
@@ -89,7 +95,7 @@ struct Foundation {
   double secondsBound = 0.0, secondsCrossings = 0.0;
 };
 
-/// \throw InvalidInput when the model crosses itself
+/// \throw DefectiveSurface when the model crosses itself
 Foundation coarsen(const Preparation& model, const Options& options, ProgressBar& bar);
 
 /// What was asked for, and the best answer.

@@ -170,6 +170,11 @@ RichParameterList dialogParameters(double diagonal) {
                "Takes a surface with openings (a vase, a tube) as the outside of a shell: "
                "the new layer is its inside, joined to it by a strip along every opening. "
                "Otherwise such a surface is refused."));
+  list.addParam(RichBool("mend", defaults.mend, "Mend defects",
+                         "Closes holes, parts non-manifold edges, removes crossings, unites "
+                         "overlapping bodies and wraps what is left, in a copy: the outer surface "
+                         "as it was mended is a layer of its own. Otherwise such a model is "
+                         "refused."));
   list.addParam(RichBool("show_layers", defaults.showAnswer, "Show the answer (more layers)",
                          "Adds a layer with the model cut open along the vertical plane through "
                          "its centre of mass, one with the centre of mass before (red) and "
@@ -210,6 +215,7 @@ Options optionsFrom(const RichParameterList& parameters) {
   options.targetMass = number(parameters, "target_mass");
   options.tippingAngle = number(parameters, "tipping_angle");
   options.openSurface = parameters.getBool("open_surface");
+  options.mend = parameters.getBool("mend");
   options.showAnswer = parameters.getBool("show_layers");
   return options;
 }

@@ -1065,7 +1065,9 @@ TEST(Pipeline, RefusesASurfaceThatCrossesItself) {
     if (model.vertices.row(v) == Eigen::RowVector3d(0, 0, 0.5))
       model.vertices.row(v) << 0.8, 0.1, 0;
   }
-  expectRefusal(model, stand(), "crosses itself");
+  Options options = stand();
+  options.mend = false;
+  expectRefusal(model, options, "crosses itself");
 }
 
 TEST(Pipeline, RefusesToStandOnAPoint) {

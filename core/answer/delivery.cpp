@@ -28,7 +28,8 @@ Faces facesWithoutLids(const Solid& solid) {
 /// Whether the input and the cavity bound the material together.
 bool inputServes(const Solid& solid, const CavityTask& task) {
   const Repairs& repairs = solid.repairs();
-  return !task.model.outer && repairs.replacedCavities == 0 && repairs.flippedComponents == 0;
+  return !task.model.outer && repairs.replacedCavities == 0 && repairs.flippedComponents == 0 &&
+         repairs.mended.empty();
 }
 
 void deliverOffsetSurface(const Solid& solid, const PosedModel& posed, const CavityTask& task,

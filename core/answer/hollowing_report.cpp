@@ -109,6 +109,7 @@ void addRepairs(const Repairs& repairs, Report& report) {
   report.add("duplicate_faces", repairs.duplicateFaces);
   report.add("flipped_components", repairs.flippedComponents);
   report.add("replaced_cavities", repairs.replacedCavities);
+  report.add("repair_distance", repairs.distance);
 }
 
 /// What the limit's body would do and, where the goal is out of reach, the best body.
@@ -213,8 +214,9 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Ve
   report.add("goal", goalNames()[static_cast<std::size_t>(options.goal)]);
   report.add("solved", after.violation <= kFeasibility && verdicts.after.isReached(after.mass));
   report.add("message",
-             message(task, verdicts, cavity, before, after, stages.largestWall * posed.frame.length,
-                     !stages.certificates.empty()) +
+             (stages.repairs.warning.empty() ? "" : stages.repairs.warning + " ") +
+                 message(task, verdicts, cavity, before, after,
+                         stages.largestWall * posed.frame.length, !stages.certificates.empty()) +
                  remark(verdicts.after, after.mass));
   report.add("objective_before", before.objective);
   report.add("objective_after", after.objective);

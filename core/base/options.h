@@ -78,6 +78,8 @@ struct Options {
   /// Whether a surface with boundary loops is taken as one side of a shell; otherwise it is
   /// refused.
   bool openSurface = false;
+  /// Whether a surface that bounds no solid is mended (model/mending.h); otherwise it is refused.
+  bool mend = true;
   /// Whether the result brings a picture of the answer.
   bool showAnswer = false;
   /// Rounds points to what the caller can store (a float mesh, say). What is delivered, checked

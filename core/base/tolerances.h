@@ -8,6 +8,9 @@ namespace massprops {
 /// inequalities g ≤ 0.
 constexpr double kFeasibility = 1e-6;
 
+/// A wall that common printers print and that carries a hand-sized model.
+constexpr double kDefaultWall = 0.01;
+
 /// A vertex touches the ground where its height above the lowest one is ≤ kContactHeight; so does
 /// what hangs, at the highest one.
 constexpr double kContactHeight = 1e-4;

@@ -1,5 +1,7 @@
 #include "core/model/posed_model.h"
 
+#include "core/base/tolerances.h"
+
 #include <algorithm>
 #include <numeric>
 #include <string>
@@ -7,8 +9,6 @@
 namespace massprops {
 namespace {
 
-/// A wall that common printers print and that carries a hand-sized model.
-constexpr double kDefaultWall = 0.01;
 /// A pivot farther away, in diagonals, is a slip of the pen, and costs digits.
 constexpr double kFarthestPivot = 10.0;
 

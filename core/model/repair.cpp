@@ -111,6 +111,19 @@ void append(std::string& text, int count, const char* singular, const char* plur
 
 } // namespace
 
+Repairs& Repairs::operator+=(const Repairs& before) {
+  unusedVertices += before.unusedVertices;
+  mergedVertices += before.mergedVertices;
+  zeroAreaFaces += before.zeroAreaFaces;
+  duplicateFaces += before.duplicateFaces;
+  flippedComponents += before.flippedComponents;
+  replacedCavities += before.replacedCavities;
+  mended = before.mended + (before.mended.empty() || mended.empty() ? "" : ", ") + mended;
+  distance = std::max(distance, before.distance);
+  if (warning.empty()) warning = before.warning;
+  return *this;
+}
+
 std::string Repairs::describe() const {
   std::string text;
   append(text, mergedVertices, "duplicate vertex", "duplicate vertices", "merged");
@@ -119,6 +132,7 @@ std::string Repairs::describe() const {
   append(text, duplicateFaces, "duplicate face", "duplicate faces", "removed");
   append(text, flippedComponents, "component", "components", "flipped");
   append(text, replacedCavities, "existing cavity", "existing cavities", "replaced by the new one");
+  if (!mended.empty()) text += (text.empty() ? "" : ", ") + mended;
   return text.empty() ? "none" : text;
 }
 

@@ -7,7 +7,7 @@
 
 namespace massprops {
 
-/// What was mended; all zero for a clean mesh.
+/// What was mended; all zero and empty for a clean mesh.
 struct Repairs {
   int unusedVertices = 0;    ///< left out
   int mergedVertices = 0;    ///< lay exactly on another one
@@ -15,6 +15,11 @@ struct Repairs {
   int duplicateFaces = 0;    ///< removed
   int flippedComponents = 0; ///< faced the wrong way throughout
   int replacedCavities = 0;  ///< existing cavities that the new one takes the place of
+  std::string mended;        ///< by mending.h, in words; empty: nothing, the rest was enough
+  double distance = 0.0;     ///< the mended surface lies within this of the given one, length
+  std::string warning;       ///< a sentence where the mended model is not quite the given one
+
+  Repairs& operator+=(const Repairs& before);
 
   /// "12 duplicate vertices merged, 1 component flipped", or "none".
   std::string describe() const;

@@ -48,22 +48,22 @@ void requireFiniteTriangles(const TriangleMesh& mesh) {
 std::size_t requireManifoldEdges(const TriangleMesh& mesh, bool mayBeOpen) {
   const auto [boundary, nonManifold, incoherent] = countEdges(mesh.vertices.rows(), mesh.faces);
   if (nonManifold > 0) {
-    throw InvalidInput("The surface has " +
-                       count(nonManifold, "non-manifold edge", "non-manifold edges") +
-                       " where more than two faces meet: use Cleaning and Repairing > Repair non "
-                       "Manifold Edges, then run again.");
+    throw DefectiveSurface(
+        "The surface has " + count(nonManifold, "non-manifold edge", "non-manifold edges") +
+        " where more than two faces meet: use Cleaning and Repairing > Repair non "
+        "Manifold Edges, then run again.");
   }
   if (boundary > 0 && !mayBeOpen) {
-    throw InvalidInput("The surface is open along " +
-                       count(boundary, "boundary edge", "boundary edges") +
-                       ": use Remeshing > Close Holes (Cleaning and Repairing > Merge Close "
-                       "Vertices first, if parts only seem joined), or switch open_surface on if "
-                       "it is to become a shell with these openings, then run again.");
+    throw DefectiveSurface(
+        "The surface is open along " + count(boundary, "boundary edge", "boundary edges") +
+        ": use Remeshing > Close Holes (Cleaning and Repairing > Merge Close "
+        "Vertices first, if parts only seem joined), or switch open_surface on if "
+        "it is to become a shell with these openings, then run again.");
   }
   if (incoherent > 0) {
-    throw InvalidInput("The faces on the two sides of " + count(incoherent, "edge", "edges") +
-                       " are oriented against each other: use Normals > Re-Orient all faces, "
-                       "then run again.");
+    throw DefectiveSurface("The faces on the two sides of " + count(incoherent, "edge", "edges") +
+                           " are oriented against each other: use Normals > Re-Orient all faces, "
+                           "then run again.");
   }
   return boundary;
 }
@@ -93,10 +93,11 @@ void requireManifoldVertices(const TriangleMesh& mesh) {
     }
   });
   if (bad > 0) {
-    throw InvalidInput("The surface touches itself at " +
-                       count(bad, "non-manifold vertex", "non-manifold vertices") +
-                       ": use Cleaning and Repairing > Repair non Manifold Vertices by splitting, "
-                       "then run again.");
+    throw DefectiveSurface(
+        "The surface touches itself at " +
+        count(bad, "non-manifold vertex", "non-manifold vertices") +
+        ": use Cleaning and Repairing > Repair non Manifold Vertices by splitting, "
+        "then run again.");
   }
 }
 
@@ -120,10 +121,11 @@ void requireNoSelfIntersection(const Points& vertices, const Faces& faces,
         "Close Holes, or cut the model where its openings are flat, then run again.");
   }
   if (crossing > 0) {
-    throw InvalidInput("The surface crosses itself: " + count(crossing, "face", "faces") +
-                       " intersect others. Use Selection > Select Self Intersecting Faces, delete "
-                       "them and use Remeshing > Close Holes, then run again; parts that overlap "
-                       "are joined by Mesh Boolean: Union (CSG Operation in MeshLab 2020.09).");
+    throw DefectiveSurface(
+        "The surface crosses itself: " + count(crossing, "face", "faces") +
+        " intersect others. Use Selection > Select Self Intersecting Faces, delete "
+        "them and use Remeshing > Close Holes, then run again; parts that overlap "
+        "are joined by Mesh Boolean: Union (CSG Operation in MeshLab 2020.09).");
   }
 }
 
@@ -137,11 +139,11 @@ RepairedMesh withoutFlatFaces(RepairedMesh mesh) {
   try {
     requireManifoldEdges(mesh.mesh, false);
     requireManifoldVertices(mesh.mesh);
-  } catch (const InvalidInput&) {
-    throw InvalidInput("The surface has " +
-                       count(static_cast<std::size_t>(removed), "face", "faces") +
-                       " without area that cannot be removed without making it non-manifold: use "
-                       "Cleaning and Repairing > Remove T-Vertices by Edge Flip, then run again.");
+  } catch (const DefectiveSurface&) {
+    throw DefectiveSurface(
+        "The surface has " + count(static_cast<std::size_t>(removed), "face", "faces") +
+        " without area that cannot be removed without making it non-manifold: use "
+        "Cleaning and Repairing > Remove T-Vertices by Edge Flip, then run again.");
   }
   return mesh;
 }
@@ -150,9 +152,10 @@ RepairedMesh withoutFlatFaces(RepairedMesh mesh) {
 void requireNoFlatFaces(const TriangleMesh& open) {
   const std::size_t flat = facesWithoutArea(open.vertices, open.faces).size();
   if (flat == 0) return;
-  throw InvalidInput("The open surface has " + count(flat, "face", "faces") +
-                     " without area: use Cleaning and Repairing > Remove T-Vertices by Edge Flip, "
-                     "then run again.");
+  throw DefectiveSurface(
+      "The open surface has " + count(flat, "face", "faces") +
+      " without area: use Cleaning and Repairing > Remove T-Vertices by Edge Flip, "
+      "then run again.");
 }
 
 /// For every face of the part whether it is one of the lids, whose corners are numbered as in the
@@ -215,7 +218,7 @@ ClosedSurface closedSurface(const TriangleMesh& input, bool closeOpenings) {
   repaired = withoutFlatFaces(std::move(repaired));
   const Eigen::Index skinFaces = repaired.mesh.faces.rows();
   if (skinFaces == 0) {
-    throw InvalidInput("The surface encloses no volume: open a model that is a solid body.");
+    throw DefectiveSurface("The surface encloses no volume: open a model that is a solid body.");
   }
   return {std::move(repaired), skinFaces, false};
 }
@@ -227,9 +230,10 @@ std::vector<double> requireVolumes(const Points& vertices, const Components& com
   for (const Faces& component : components) {
     volumes.push_back(signedVolume(vertices, component));
     if (!(std::abs(volumes.back()) > roundOff)) {
-      throw InvalidInput("The surface, or a component of it, encloses no volume: use Cleaning and "
-                         "Repairing > Remove Isolated pieces (wrt Diameter), or open a model that "
-                         "is a solid body.");
+      throw DefectiveSurface(
+          "The surface, or a component of it, encloses no volume: use Cleaning and "
+          "Repairing > Remove Isolated pieces (wrt Diameter), or open a model that "
+          "is a solid body.");
     }
   }
   return volumes;
@@ -247,8 +251,9 @@ NestedParts nestedParts(const Points& vertices, Components components,
   NestedParts parts;
   for (std::size_t c = 0; c < components.size(); ++c) {
     if (depths[c] > 1) {
-      throw InvalidInput("A part of the model lies loose inside of a cavity of another one: remove "
-                         "it (Mesh Layer > Split in Connected Components), then run again.");
+      throw DefectiveSurface(
+          "A part of the model lies loose inside of a cavity of another one: remove "
+          "it (Mesh Layer > Split in Connected Components), then run again.");
     }
     const bool isCavity = depths[c] == 1;
     if (isCavity && hasLids) {
@@ -266,7 +271,8 @@ NestedParts nestedParts(const Points& vertices, Components components,
 
 } // namespace
 
-Solid makeSolid(const TriangleMesh& input, bool closeOpenings, const Mat3& rotation) {
+Solid makeSolid(const TriangleMesh& input, bool closeOpenings, const Mat3& rotation,
+                const Repairs& before) {
   requireFiniteTriangles(input);
   const ClosedSurface surface = closedSurface(input, closeOpenings);
   const TriangleMesh& mesh = surface.repaired.mesh;
@@ -295,8 +301,9 @@ Solid makeSolid(const TriangleMesh& input, bool closeOpenings, const Mat3& rotat
       isOne ? std::move(order)
             : orderInSpace(body.mesh.vertices, body.mesh.faces, rotation, solid.diagonal_);
   solid.repairs_ = surface.repaired.repairs;
-  solid.repairs_.flippedComponents = parts.flipped;
-  solid.repairs_.replacedCavities = static_cast<int>(parts.cavities.size());
+  solid.repairs_ += before;
+  solid.repairs_.flippedComponents += parts.flipped;
+  solid.repairs_.replacedCavities += static_cast<int>(parts.cavities.size());
   return solid;
 }
 

@@ -8,6 +8,12 @@
 
 namespace massprops {
 
+/// A surface that bounds no solid; mending.h may make it do so.
+class DefectiveSurface : public InvalidInput {
+public:
+  using InvalidInput::InvalidInput;
+};
+
 /// One or more disjoint bodies, each bounded by a closed 2-manifold of its own with triangles
 /// counter-clockwise seen from outside; no crossings (but see
 /// `requireNoCrossings`), every vertex used,
@@ -28,7 +34,8 @@ public:
   const std::vector<int>& spatialFaceOrder() const { return spatialFaceOrder_; }
 
 private:
-  friend Solid makeSolid(const TriangleMesh& input, bool closeOpenings, const Mat3& rotation);
+  friend Solid makeSolid(const TriangleMesh& input, bool closeOpenings, const Mat3& rotation,
+                         const Repairs& before);
   friend void requireNoCrossings(const Solid& solid);
   TriangleMesh mesh_;
   TriangleMesh cavities_;
@@ -43,13 +50,15 @@ private:
 /// components that lie inside of another one aside as existing cavities.
 /// `closeOpenings`: boundary loops get lids (hole_filling.h); otherwise an open surface is refused.
 /// `rotation`: of the frame in which `spatialFaceOrder` is the same for a model that is turned.
-/// \throw InvalidInput with the number of defects and the MeshLab filter that mends them
+/// `before`: what was mended already.
+/// \throw DefectiveSurface with the number of defects and the MeshLab filter that mends them;
+/// InvalidInput where there is no surface
 Solid makeSolid(const TriangleMesh& input, bool closeOpenings = false,
-                const Mat3& rotation = Mat3::Identity());
+                const Mat3& rotation = Mat3::Identity(), const Repairs& before = {});
 
 /// Looks for crossings where `makeSolid` has not: of a single closed surface, for that is most of
 /// the work and may be done beside the first stages that use the solid.
-/// \throw InvalidInput as `makeSolid` does
+/// \throw DefectiveSurface as `makeSolid` does
 void requireNoCrossings(const Solid& solid);
 
 } // namespace massprops

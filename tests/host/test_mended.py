@@ -73,6 +73,24 @@ class MendedTest(HostTest):
         self.assertEqual(bounds_a_volume(*layers), "")
         self.assertAlmostEqual(measure.body(*read_ply(layers[0]), 1.0)[0], 2000.0, delta=1e-3)
 
+    def test_a_hole_is_closed_and_the_outer_surface_delivered(self):
+        points, faces = cube()
+        report, layers = self.outer_and_inner(points, faces[1:])
+        self.assertEqual(report["repairs"], "1 hole closed")
+        self.assertGreater(report["repair_distance"], 0.0)
+        self.assertEqual(bounds_a_volume(*layers), "")
+        self.assertAlmostEqual(measure.body(*read_ply(layers[0]), 1.0)[0], 1000.0, delta=5.0)
+
+    def test_overlapping_bodies_are_united(self):
+        points, faces = cube()
+        report, layers = self.outer_and_inner(np.vstack([points, points + [5, 0.5, 0.25]]),
+                                              np.vstack([faces, faces + len(points)]))
+        self.assertIn("2 overlapping bodies united", report["repairs"])
+        self.assertEqual(bounds_a_volume(*layers), "")
+        overlap = 5.0 * 9.5 * 9.75
+        self.assertAlmostEqual(measure.body(*read_ply(layers[0]), 1.0)[0], 2000.0 - overlap,
+                               delta=0.1)
+
     def test_an_inside_out_open_surface_gets_an_outer_layer_that_is_as_open(self):
         points, faces = cube()
         walls = faces[points[faces][:, :, 2].min(axis=1) < 9.9]  # without its top

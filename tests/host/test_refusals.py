@@ -13,7 +13,9 @@ SPIN = script_of("tilted_ellipsoid_top")
 
 class RefusalsTest(HostTest):
     def refuse(self, mesh, sentence, filters=(), **values):
-        """`mesh`: (vertices, faces), a file, or None for an empty document."""
+        """`mesh`: (vertices, faces), a file, or None for an empty document. Without `mend`, unless
+        it is among the values."""
+        values.setdefault("mend", "false")
         script = changed_script(SPIN, self.folder / "s.mlx", **values)
         inner = self.folder / "inner.ply"
         arguments = []
@@ -124,6 +126,11 @@ class RefusalsTest(HostTest):
         vertex = int(np.argmin(np.linalg.norm(points - [5, 5, 0], axis=1)))
         points[vertex] = [5, 5, 15]
         self.refuse((points, faces), "cross", ["Select Self Intersecting Faces"])
+
+    def test_a_vase_is_not_mended(self):
+        points, faces = cube()
+        opened = faces[points[faces][:, :, 2].min(axis=1) < 9.9]  # without its top
+        self.refuse((points, opened), "1 opening .*open_surface", ["Close Holes"], mend="true")
 
     def test_more_basis_functions_than_vertices(self):
         self.refuse(cube(), "basis_k is 99.*vertices", ["Subdivision Surfaces: Midpoint"], basis_k=99)

@@ -544,6 +544,7 @@ PropertyCase makeCase(std::uint32_t seed, int number) {
   if (o.basisSize < 5) o.goal = GoalKind::Stand;
   c.wall = diagonal * chance.logBetween(0.003, 0.08);
   o.innerLowerBound = c.wall;
+  o.mend = false; // what crosses itself is to be refused
   if (chance.oneIn(3)) o.innerUpperBound = chance.between(0.3, 1.0);
   const bool stands = o.goal == GoalKind::Stand || o.goal == GoalKind::PublishedStand ||
                       o.goal == GoalKind::StandEmptyAndFilled;

@@ -1,0 +1,15 @@
+// Mending: holes that are defects, not openings.
+#pragma once
+
+#include "core/model/mending_step.h"
+
+namespace massprops {
+
+/// Closes boundary loops by fair patches: those near the ground, as scans have them, by a taut one,
+/// and those whose patch crosses nothing of its component and has at most 5 % of the area. Loops
+/// that run along another component, or whose patch would enclose nothing, stay open: they are
+/// seams of a surface in pieces. \pre a coherently oriented 2-manifold
+/// \throw InvalidInput where another loop is left: an opening as a vase has it
+MendedMesh closedHoles(const TriangleMesh& mesh, const MendingTask& task);
+
+} // namespace massprops

@@ -1,0 +1,37 @@
+#include "core/model/empty_shells.h"
+
+#include "core/base/triangle.h"
+#include "core/mesh/components.h"
+#include "core/mesh/connectivity.h"
+#include "core/mesh/signed_volume.h"
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace massprops {
+
+MendedMesh withoutEmptyShells(const TriangleMesh& input, const MendingTask& /*task*/) {
+  std::vector<Submesh> components = componentMeshes(input.vertices, input.faces);
+  if (components.size() < 2) return {input};
+  const double thinnest = placeTolerance(input.vertices);
+  const double roundOff = 1e-12 * std::pow(diagonalOf(input.vertices), 3);
+  std::vector<TriangleMesh> kept;
+  std::size_t empty = 0;
+  for (Submesh& component : components) {
+    const auto& [vertices, faces] = component.mesh;
+    const bool isClosed = countEdges(vertices.rows(), faces).boundary == 0;
+    const double volume = std::abs(signedVolume(vertices, faces));
+    // Two sides.
+    const double thickness = 2.0 * volume / surfaceArea(vertices, faces);
+    if (isClosed && !(thickness > thinnest && volume > roundOff)) {
+      ++empty;
+    } else {
+      kept.push_back(std::move(component.mesh));
+    }
+  }
+  if (empty == 0 || kept.empty()) return {input};
+  return {assembled(kept), counted(empty, "component", "components") + " without volume left out"};
+}
+
+} // namespace massprops

@@ -1,0 +1,12 @@
+// Mending: components that enclose nothing.
+#pragma once
+
+#include "core/model/mending_step.h"
+
+namespace massprops {
+
+/// Leaves out closed components thinner on average than can be told from nothing, where others are
+/// left.
+MendedMesh withoutEmptyShells(const TriangleMesh& mesh, const MendingTask& task);
+
+} // namespace massprops

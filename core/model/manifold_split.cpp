@@ -1,0 +1,176 @@
+#include "core/model/manifold_split.h"
+
+#include "core/base/triangle.h"
+#include "core/mesh/components.h"
+#include "core/mesh/connectivity.h"
+
+#include <boost/pending/disjoint_sets.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace massprops {
+namespace {
+
+std::size_t at(Eigen::Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// A half-edge as connectivity.h numbers them, with its edge.
+struct Side {
+  int low, high;
+  int halfEdge;
+  bool forward; ///< from `low` to `high`
+};
+
+std::vector<Side> sidesOf(const Faces& faces) {
+  std::vector<Side> sides;
+  sides.reserve(at(faces.size()));
+  for (int h = 0; h < static_cast<int>(faces.size()); ++h) {
+    const int a = faces.data()[h];
+    const int b = faces.data()[nextHalfEdge(h)];
+    sides.push_back({std::min(a, b), std::max(a, b), h, a < b});
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& s, const Side& t) {
+    return std::tie(s.low, s.high, s.halfEdge) < std::tie(t.low, t.high, t.halfEdge);
+  });
+  return sides;
+}
+
+/// Faces of one edge in pairs that bound a wedge of material: seen along the edge,
+/// counter-clockwise from a face that runs against it, behind which the material begins, to one
+/// that runs along it.
+std::vector<std::pair<int, int>> wedges(const TriangleMesh& mesh, const Side* begin,
+                                        const Side* end) {
+  const Vec3 origin = mesh.vertices.row(begin->low).transpose();
+  const Vec3 axis = (mesh.vertices.row(begin->high).transpose() - origin).stableNormalized();
+  const Vec3 u = axis.unitOrthogonal();
+  const Vec3 w = axis.cross(u);
+  struct Ray {
+    double angle;
+    bool closes;
+    int halfEdge;
+  };
+  std::vector<Ray> rays;
+  for (const Side* side = begin; side != end; ++side) {
+    const int apex = mesh.faces.data()[previousHalfEdge(side->halfEdge)];
+    const Vec3 d = mesh.vertices.row(apex).transpose() - origin;
+    rays.push_back({std::atan2(d.dot(w), d.dot(u)), side->forward, side->halfEdge});
+  }
+  std::stable_sort(rays.begin(), rays.end(),
+                   [](const Ray& r, const Ray& s) { return r.angle < s.angle; });
+  // As brackets in a circle: twice round, so that one that opens at the end is closed.
+  std::vector<std::pair<int, int>> pairs;
+  std::vector<std::size_t> open;
+  std::vector<char> isPaired(rays.size(), 0);
+  for (std::size_t i = 0; i < 2 * rays.size(); ++i) {
+    const std::size_t r = i % rays.size();
+    if (isPaired[r] != 0) continue;
+    if (!rays[r].closes) {
+      if (i < rays.size()) open.push_back(r);
+    } else if (!open.empty()) {
+      isPaired[open.back()] = isPaired[r] = 1;
+      pairs.emplace_back(rays[open.back()].halfEdge, rays[r].halfEdge);
+      open.pop_back();
+    }
+  }
+  return pairs;
+}
+
+/// Corners that stay together at one vertex.
+class CornerSets {
+public:
+  explicit CornerSets(Eigen::Index corners)
+      : rank_(at(corners)), parent_(at(corners)), sets_(rank_.data(), parent_.data()) {
+    for (int c = 0; c < static_cast<int>(corners); ++c) sets_.make_set(c);
+  }
+
+  /// Across an edge, which the half-edges run along in opposite directions.
+  void join(int h, int g) {
+    sets_.union_set(h, nextHalfEdge(g));
+    sets_.union_set(nextHalfEdge(h), g);
+  }
+
+  int of(int corner) { return sets_.find_set(corner); }
+
+private:
+  std::vector<int> rank_, parent_;
+  boost::disjoint_sets<int*, int*> sets_;
+};
+
+} // namespace
+
+MendedMesh splitToManifold(const TriangleMesh& input, const MendingTask& /*task*/) {
+  MendedMesh result{input};
+  const std::vector<Side> sides = sidesOf(input.faces);
+  CornerSets sets(input.faces.size());
+  std::size_t edges = 0;
+  for (std::size_t i = 0; i < sides.size();) {
+    std::size_t end = i;
+    while (end < sides.size() && sides[end].low == sides[i].low &&
+           sides[end].high == sides[i].high) {
+      ++end;
+    }
+    if (end - i == 2 && sides[i].forward != sides[i + 1].forward) {
+      sets.join(sides[i].halfEdge, sides[i + 1].halfEdge);
+    } else if (end - i > 1) {
+      for (const auto& [h, g] : wedges(input, sides.data() + i, sides.data() + end))
+        sets.join(h, g);
+      ++edges;
+    }
+    i = end;
+  }
+
+  // A vertex for each set of corners: the first keeps the number.
+  const VertexCorners corners = vertexCorners(input.vertices.rows(), input.faces);
+  TriangleMesh& mesh = result.mesh;
+  std::vector<Vec3> added;
+  std::size_t vertices = 0;
+  const double most = placeTolerance(input.vertices);
+  for (Eigen::Index v = 0; v < input.vertices.rows(); ++v) {
+    std::vector<int> roots;
+    for (const int c : corners.at(v)) roots.push_back(sets.of(c));
+    std::sort(roots.begin(), roots.end());
+    roots.erase(std::unique(roots.begin(), roots.end()), roots.end());
+    if (roots.size() < 2) continue;
+    ++vertices;
+    const Vec3 place = input.vertices.row(v).transpose();
+    for (std::size_t r = 0; r < roots.size(); ++r) {
+      Vec3 normal = Vec3::Zero();
+      double shortest = std::numeric_limits<double>::infinity();
+      const int number =
+          r == 0 ? static_cast<int>(v)
+                 : static_cast<int>(input.vertices.rows()) + static_cast<int>(added.size());
+      for (const int c : corners.at(v)) {
+        if (sets.of(c) != roots[r]) continue;
+        normal += areaNormal(input.vertices, input.faces, c / 3).stableNormalized();
+        const int next = input.faces.data()[nextHalfEdge(c)];
+        shortest = std::min(shortest, (input.vertices.row(next).transpose() - place).norm());
+        mesh.faces.data()[c] = number;
+      }
+      const Vec3 moved = place - std::min(most, 0.1 * shortest) * normal.stableNormalized();
+      if (r == 0) {
+        mesh.vertices.row(v) = moved.transpose();
+      } else {
+        added.push_back(moved);
+      }
+    }
+  }
+  if (vertices == 0) return {input};
+  const Eigen::Index rows = mesh.vertices.rows();
+  mesh.vertices.conservativeResize(rows + static_cast<Eigen::Index>(added.size()), 3);
+  for (std::size_t i = 0; i < added.size(); ++i) {
+    mesh.vertices.row(rows + static_cast<Eigen::Index>(i)) = added[i].transpose();
+  }
+  result.distance = most;
+  result.done = edges > 0
+                    ? counted(edges, "non-manifold edge", "non-manifold edges") + " parted"
+                    : counted(vertices, "non-manifold vertex", "non-manifold vertices") + " parted";
+  return result;
+}
+
+} // namespace massprops

@@ -1,0 +1,53 @@
+// What the steps of the mending have in common.
+#pragma once
+
+#include "core/base/types.h"
+
+#include <algorithm>
+#include <functional>
+#include <string>
+
+namespace massprops {
+
+/// What the steps may go by.
+struct MendingTask {
+  double wall = 0.0;          ///< length; nothing that moves the surface less than this can be felt
+  Vec3 up = Vec3::UnitZ();    ///< unit
+  bool keepsOpenings = false; ///< whether the surface is to become a shell with its openings
+  /// Rounds points to what the caller can store.
+  std::function<Points(const Points&)> representable = [](const Points& points) { return points; };
+};
+
+/// What a step made of a surface.
+struct MendedMesh {
+  TriangleMesh mesh;
+  std::string done = {};    ///< "3 holes closed"; empty: there was nothing to do
+  double distance = 0.0;    ///< the surface lies within this of where it was, length
+  std::string warning = {}; ///< a sentence; empty: the mended model is as good as the given one
+};
+
+/// Takes any triangles with corners that differ and finite coordinates; does nothing where there is
+/// nothing to do or where it fails.
+using MendingStep = MendedMesh (*)(const TriangleMesh& mesh, const MendingTask& task);
+
+/// "1 hole", "3 holes".
+inline std::string counted(std::size_t n, const char* singular, const char* plural) {
+  return std::to_string(n) + " " + (n == 1 ? singular : plural);
+}
+
+/// Of the box around the vertices, length.
+inline double diagonalOf(const Points& vertices) {
+  if (vertices.rows() == 0) return 0.0;
+  return (vertices.colwise().maxCoeff() - vertices.colwise().minCoeff()).norm();
+}
+
+/// What is nearer than this is at the same place for any printer, and far above the rounding of a
+/// float.
+inline double placeTolerance(const Points& vertices) {
+  constexpr double kShare = 1e-5;
+  constexpr double kFloat = 1e-6;
+  if (vertices.rows() == 0) return 0.0;
+  return std::max(kShare * diagonalOf(vertices), kFloat * vertices.cwiseAbs().maxCoeff());
+}
+
+} // namespace massprops

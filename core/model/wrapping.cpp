@@ -1,0 +1,143 @@
+#include "core/model/wrapping.h"
+
+#include "core/base/triangle.h"
+#include "core/mesh/cgal_mesh.h"
+#include "core/mesh/degenerate_faces.h"
+#include "core/mesh/signed_volume.h"
+#include "core/query/self_intersection.h"
+#include "core/query/surface_deviation.h"
+#include "core/query/triangle_tree.h"
+#include "core/query/winding_number.h"
+#include "core/query/winding_volume.h"
+
+#include <CGAL/alpha_wrap_3.h>
+
+#include <array>
+#include <cmath>
+#include <exception>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace massprops {
+namespace {
+
+/// Beyond these it is another model.
+constexpr double kMostVolume = 0.03;
+/// Of the box's diagonal, from the finest ball to the coarsest.
+constexpr double kBalls[] = {1.0 / 100.0, 1.0 / 50.0, 1.0 / 33.0, 1.0 / 20.0, 1.0 / 10.0};
+
+std::optional<TriangleMesh> wrapOf(const TriangleMesh& mesh, double ball, double offset) {
+  std::vector<SurfaceKernel::Point_3> points;
+  std::vector<std::array<std::size_t, 3>> triangles;
+  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
+    points.emplace_back(mesh.vertices(v, 0), mesh.vertices(v, 1), mesh.vertices(v, 2));
+  }
+  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
+    const auto at = [&](int k) { return static_cast<std::size_t>(mesh.faces(f, k)); };
+    triangles.push_back({at(0), at(1), at(2)});
+  }
+  SurfaceMesh wrap;
+  try {
+    CGAL::alpha_wrap_3(points, triangles, ball, offset, wrap);
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+  wrap.collect_garbage();
+  TriangleMesh result = triangleMesh(wrap);
+  if (result.faces.rows() == 0) return std::nullopt;
+  return result;
+}
+
+bool isGood(const TriangleMesh& mesh) {
+  return facesWithoutArea(mesh.vertices, mesh.faces).empty() &&
+         selfIntersectingFaces(mesh.vertices, mesh.faces).empty();
+}
+
+/// The wrap nearer to what it wraps, as far as it does not cross itself then.
+std::optional<TriangleMesh> tightened(const TriangleMesh& wrap, const TriangleTree& surface,
+                                      double offset, const MendingTask& task) {
+  Points ways(wrap.vertices.rows(), 3);
+  for (Eigen::Index v = 0; v < ways.rows(); ++v) {
+    const Vec3 p = wrap.vertices.row(v).transpose();
+    const Vec3 way = surface.nearest(p).point - p;
+    const double length = way.norm();
+    ways.row(v) = (length > offset ? Vec3(offset / length * way) : way).transpose();
+  }
+  for (const double share : {0.95, 0.8, 0.5, 0.0}) {
+    TriangleMesh result = wrap;
+    result.vertices = task.representable(wrap.vertices + share * ways);
+    if (isGood(result)) return result;
+  }
+  return std::nullopt;
+}
+
+/// Faces with the outside on one side only, of at most some thousands.
+Faces visibleFaces(const TriangleMesh& mesh) {
+  constexpr Eigen::Index kMost = 8000;
+  const Eigen::Index step = std::max<Eigen::Index>(1, mesh.faces.rows() / kMost);
+  const WindingNumber winding(mesh.vertices, mesh.faces);
+  const double beside = 10.0 * placeTolerance(mesh.vertices);
+  Faces visible(mesh.faces.rows() / step + 1, 3);
+  Eigen::Index rows = 0;
+  for (Eigen::Index f = 0; f < mesh.faces.rows(); f += step) {
+    const Vec3 normal = areaNormal(mesh.vertices, mesh.faces, f).stableNormalized();
+    Vec3 middle = Vec3::Zero();
+    for (const int v : mesh.faces.row(f)) middle += mesh.vertices.row(v).transpose() / 3.0;
+    const auto isInside = [&](const Vec3& p) { return std::abs(winding.at(p)) >= 0.5; };
+    if (isInside(middle + beside * normal) != isInside(middle - beside * normal)) {
+      visible.row(rows++) = mesh.faces.row(f);
+    }
+  }
+  return visible.topRows(rows);
+}
+
+std::string percent(double share) {
+  const double tenths = std::round(1000.0 * share);
+  return (tenths < 0.0 ? "-" : "+") + std::to_string(static_cast<int>(std::abs(tenths)) / 10) +
+         "." + std::to_string(static_cast<int>(std::abs(tenths)) % 10) + " %";
+}
+
+} // namespace
+
+MendedMesh wrapped(const TriangleMesh& input, const MendingTask& task) {
+  if (input.faces.rows() == 0) return {input};
+  const double diagonal = diagonalOf(input.vertices);
+  const double offset = std::min(0.25 * task.wall, diagonal / 400.0);
+  const TriangleTree surface(input.vertices, input.faces);
+  const double volume = windingVolumes(input, {}).volume;
+  constexpr double kNothing = 1e-4;
+  if (!(volume > kNothing * std::pow(diagonal, 3))) return {input};
+
+  // A ball that fits through a gap leaves the hollow inside.
+  constexpr double kKept = 0.9;
+  std::optional<TriangleMesh> wrap;
+  for (const double ball : kBalls) {
+    wrap = wrapOf(input, ball * diagonal, offset);
+    if (wrap && signedVolume(wrap->vertices, wrap->faces) >= kKept * volume) break;
+    wrap.reset();
+  }
+  if (!wrap) return {input};
+  wrap = tightened(*wrap, surface, offset, task);
+  if (!wrap) return {input};
+
+  MendedMesh result{std::move(*wrap)};
+  const TriangleTree tree(result.mesh.vertices, result.mesh.faces);
+  result.distance = std::max(greatestDistance(result.mesh.vertices, result.mesh.faces, surface),
+                             greatestDistance(input.vertices, visibleFaces(input), tree));
+  const WindingVolume volumes = windingVolumes(input, result.mesh);
+  const double change = volumes.otherVolume / volumes.volume - 1.0;
+  result.done = "wrapped, volume " + percent(change);
+  if (result.distance > task.wall || std::abs(change) > kMostVolume) {
+    result.warning =
+        "The model could not be mended piece by piece and was wrapped anew: its surface moved by "
+        "up to " +
+        percent(result.distance / diagonal).substr(1) +
+        " of the diagonal and its volume changed by " + percent(change) +
+        ", so look at the new outer surface.";
+  }
+  return result;
+}
+
+} // namespace massprops

@@ -1,0 +1,488 @@
+// What no slicer minds is mended: each step alone, the way through them, and clean solids that were
+// broken at random.
+#include "core/model/mending.h"
+
+#include "core/mesh/components.h"
+#include "core/mesh/connectivity.h"
+#include "core/mesh/signed_volume.h"
+#include "core/model/closed_holes.h"
+#include "core/model/empty_shells.h"
+#include "core/model/local_crossings.h"
+#include "core/model/manifold_split.h"
+#include "core/model/seams.h"
+#include "core/model/self_union.h"
+#include "core/model/shell_orientation.h"
+#include "core/model/solid.h"
+#include "core/model/united_bodies.h"
+#include "core/model/wrapping.h"
+#include "core/pipeline.h"
+#include "judge/checks.h"
+#include "shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace massprops::testing {
+namespace {
+
+double volume(const TriangleMesh& mesh) {
+  return signedVolume(mesh.vertices, mesh.faces);
+}
+
+double diagonal(const TriangleMesh& mesh) {
+  return diagonalOf(mesh.vertices);
+}
+
+MendingTask taskFor(const TriangleMesh& mesh) {
+  MendingTask task;
+  task.wall = 0.01 * diagonal(mesh);
+  return task;
+}
+
+TriangleMesh withoutFaces(const TriangleMesh& mesh, const std::function<bool(const Vec3&)>& goes) {
+  TriangleMesh result = mesh;
+  Eigen::Index kept = 0;
+  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
+    Vec3 middle = Vec3::Zero();
+    for (const int v : mesh.faces.row(f)) middle += mesh.vertices.row(v).transpose() / 3.0;
+    if (!goes(middle)) result.faces.row(kept++) = mesh.faces.row(f);
+  }
+  return submesh(mesh.vertices, result.faces.topRows(kept)).mesh;
+}
+
+TriangleMesh shifted(const TriangleMesh& mesh, const Vec3& by) {
+  return transformed(mesh, Mat3::Identity(), by);
+}
+
+TriangleMesh unwelded(const TriangleMesh& mesh) {
+  TriangleMesh result{Points(mesh.faces.size(), 3), mesh.faces};
+  for (Eigen::Index i = 0; i < mesh.faces.size(); ++i) {
+    result.vertices.row(i) = mesh.vertices.row(mesh.faces.data()[i]);
+    result.faces.data()[i] = static_cast<int>(i);
+  }
+  return result;
+}
+
+/// Vertices at the same place are one, whatever that makes of the surface.
+TriangleMesh withMergedPlaces(const TriangleMesh& mesh) {
+  return mergedAndCompacted(unwelded(mesh)).mesh;
+}
+
+void expectClosed(const TriangleMesh& mesh) {
+  EXPECT_TRUE(isClosedAndOriented(mesh));
+  EXPECT_EQ(intersectingPairs(mesh), 0U);
+}
+
+// ---------------------------------------------------------------- the steps
+
+TEST(JoinedSeams, MergesBordersThatLieApartByRounding) {
+  const TriangleMesh body = blob(6);
+  const TriangleMesh loose = jittered(unwelded(body), 2e-6 * diagonal(body), 3);
+  const MendedMesh result = joinedSeams(loose, taskFor(body));
+  EXPECT_TRUE(isClosedAndOriented(result.mesh));
+  EXPECT_EQ(result.mesh.faces.rows(), body.faces.rows());
+  EXPECT_NE(result.done.find("merged"), std::string::npos);
+  EXPECT_NEAR(volume(result.mesh), volume(body), 1e-4 * volume(body));
+}
+
+TEST(JoinedSeams, ClosesTJunctions) {
+  // The top is cut finer than the sides that it meets.
+  const TriangleMesh coarse = box({2, 2, 2}, 1);
+  const TriangleMesh fine = box({2, 2, 2}, 3);
+  const auto isTop = [](const Vec3& p) { return p.z() > 0.999; };
+  const TriangleMesh mixed = joined(withoutFaces(coarse, isTop),
+                                    withoutFaces(fine, [&](const Vec3& p) { return !isTop(p); }));
+  const TriangleMesh welded = mergedAndCompacted(mixed).mesh;
+  ASSERT_GT(countEdges(welded.vertices.rows(), welded.faces).boundary, 0U);
+  const MendedMesh result = joinedSeams(welded, taskFor(coarse));
+  EXPECT_TRUE(isClosedAndOriented(result.mesh)) << result.done;
+  EXPECT_NE(result.done.find("8 T-junctions closed"), std::string::npos) << result.done;
+  EXPECT_NEAR(volume(result.mesh), 8.0, 1e-9);
+}
+
+TEST(JoinedSeams, LeavesAGoodSurfaceAlone) {
+  const TriangleMesh body = blob(5);
+  const MendedMesh result = joinedSeams(body, taskFor(body));
+  EXPECT_TRUE(result.done.empty());
+  EXPECT_EQ(result.mesh.faces, body.faces);
+}
+
+TEST(OrientedShells, TurnsFacesOverThatDisagree) {
+  const TriangleMesh body = blob(5);
+  TriangleMesh mixed = body;
+  for (Eigen::Index f = 0; f < mixed.faces.rows(); f += 3) {
+    std::swap(mixed.faces(f, 0), mixed.faces(f, 1));
+  }
+  const MendedMesh result = orientedShells(mixed, taskFor(body));
+  EXPECT_TRUE(isClosedAndOriented(result.mesh));
+  EXPECT_NEAR(volume(result.mesh), volume(body), 1e-12);
+}
+
+TEST(OrientedShells, TellsPatchesThatEndAtManyFacesWhereOutsideIs) {
+  // Two cubes that share an edge, one inside out: each is a patch of its own.
+  const TriangleMesh one = box({1, 1, 1});
+  TriangleMesh mixed = withMergedPlaces(joined(one, reversed(shifted(one, {1, 1, 0}))));
+  std::swap(mixed.faces(0, 0), mixed.faces(0, 1));
+  const MendedMesh result = orientedShells(mixed, taskFor(mixed));
+  EXPECT_NEAR(volume(result.mesh), 2.0, 1e-12);
+}
+
+TEST(SplitToManifold, PartsTwoCubesThatShareAnEdge) {
+  const TriangleMesh one = box({1, 1, 1}, 2);
+  const TriangleMesh touching = withMergedPlaces(joined(one, shifted(one, {1, 1, 0})));
+  ASSERT_GT(countEdges(touching.vertices.rows(), touching.faces).nonManifold, 0U);
+  const MendedMesh result = splitToManifold(touching, taskFor(touching));
+  expectClosed(result.mesh);
+  EXPECT_EQ(connectedComponents(result.mesh.vertices.rows(), result.mesh.faces).size(), 2U);
+  EXPECT_NEAR(volume(result.mesh), 2.0, 1e-3);
+  EXPECT_LE(result.distance, 1e-4 * diagonal(touching));
+  EXPECT_NE(result.done.find("2 non-manifold edges"), std::string::npos) << result.done;
+}
+
+TEST(SplitToManifold, PartsTwoBodiesThatShareAVertex) {
+  const TriangleMesh one = box({1, 1, 1});
+  const TriangleMesh touching = withMergedPlaces(joined(one, shifted(one, {1, 1, 1})));
+  const MendedMesh result = splitToManifold(touching, taskFor(touching));
+  expectClosed(result.mesh);
+  EXPECT_NEAR(volume(result.mesh), 2.0, 1e-3);
+}
+
+TEST(ClosedHoles, FollowsTheSurfaceAroundASmallHole) {
+  const TriangleMesh ball = sphere(16);
+  const TriangleMesh open = withoutFaces(ball, [](const Vec3& p) { return p.x() > 0.96; });
+  const MendedMesh result = closedHoles(open, taskFor(ball));
+  expectClosed(result.mesh);
+  EXPECT_EQ(result.done, "1 hole closed");
+  // A flat lid would lose π h² (3 − h)/3 of 4π/3 with h = 0.04: 0.1 %.
+  EXPECT_NEAR(volume(result.mesh), volume(ball), 3e-4 * volume(ball));
+}
+
+TEST(ClosedHoles, ClosesTheBaseOfAScanLevel) {
+  const TriangleMesh scan = withoutFaces(sphere(12), [](const Vec3& p) { return p.z() < -0.8; });
+  double lowest = 1.0;
+  for (const int v : scan.faces.reshaped()) lowest = std::min(lowest, scan.vertices(v, 2));
+  const TriangleMesh open = submesh(scan.vertices, scan.faces).mesh;
+  const MendedMesh result = closedHoles(open, taskFor(open));
+  expectClosed(result.mesh);
+  EXPECT_GE(result.mesh.vertices.col(2).minCoeff(), lowest - 1e-9);
+}
+
+TEST(ClosedHoles, RefusesAVase) {
+  const TriangleMesh vase = withoutFaces(sphere(12), [](const Vec3& p) { return p.z() > 0.6; });
+  try {
+    closedHoles(submesh(vase.vertices, vase.faces).mesh, taskFor(vase));
+    ADD_FAILURE() << "closed";
+  } catch (const InvalidInput& e) {
+    EXPECT_NE(std::string(e.what()).find("open_surface"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("1 opening is"), std::string::npos) << e.what();
+  }
+}
+
+TEST(LocalCrossings, ReplacesAFoldedPlace) {
+  const TriangleMesh ball = sphere(12);
+  TriangleMesh folded = ball;
+  // A vertex pushed over its neighbour.
+  const int v = ball.faces(40, 0);
+  folded.vertices.row(v) += 1.9 * (ball.vertices.row(ball.faces(40, 1)) - ball.vertices.row(v));
+  ASSERT_GT(intersectingPairs(folded), 0U);
+  const MendedMesh result = withoutLocalCrossings(folded, taskFor(ball));
+  expectClosed(result.mesh);
+  EXPECT_NEAR(volume(result.mesh), volume(ball), 0.005 * volume(ball));
+}
+
+TEST(LocalCrossings, LeavesOverlappingBodiesToTheUnion) {
+  const TriangleMesh two = joined(sphere(6), shifted(sphere(6), {1, 0.1, 0}));
+  EXPECT_TRUE(withoutLocalCrossings(two, taskFor(two)).done.empty());
+}
+
+TEST(EmptyShells, GoAndLeaveTheBodies) {
+  TriangleMesh sheet = transformed(box({1, 1, 1}, 2), Vec3(1, 1, 0).asDiagonal(), {5, 0, 0});
+  const TriangleMesh both = joined(blob(4), sheet);
+  const MendedMesh result = withoutEmptyShells(both, taskFor(both));
+  EXPECT_EQ(result.mesh.faces.rows(), blob(4).faces.rows());
+  EXPECT_EQ(result.done, "1 component without volume left out");
+}
+
+/// Volume that two unit balls have together whose centres lie `d` apart.
+double volumeOfTwoBalls(double d) {
+  const double pi = std::acos(-1.0);
+  return 8.0 / 3.0 * pi - pi * (4.0 + d) * (2.0 - d) * (2.0 - d) / 12.0;
+}
+
+TEST(UnitedBodies, HaveTheVolumeOfTheUnion) {
+  const TriangleMesh two = joined(sphere(20), shifted(sphere(20), {1.0, 0.1, 0.2}));
+  const MendedMesh result = unitedBodies(two, taskFor(two));
+  expectClosed(result.mesh);
+  const double expected = volumeOfTwoBalls(std::sqrt(1.05));
+  EXPECT_NEAR(volume(result.mesh), expected, 0.005 * expected); // of the chords
+  EXPECT_EQ(result.done, "2 overlapping bodies united");
+}
+
+TEST(UnitedBodies, KeepCavitiesAndLeaveOutWhatIsInTheMaterial) {
+  const TriangleMesh two = joined(sphere(8), shifted(sphere(8), {1.0, 0.1, 0.2}));
+  const TriangleMesh small = transformed(sphere(3), 0.1 * Mat3::Identity(), {-0.5, 0, 0});
+  const double united = volume(unitedBodies(two, taskFor(two)).mesh);
+  EXPECT_NEAR(volume(unitedBodies(joined(two, reversed(small)), taskFor(two)).mesh),
+              united - volume(small), 1e-9);
+  EXPECT_NEAR(volume(unitedBodies(joined(two, small), taskFor(two)).mesh), united, 1e-9);
+}
+
+TEST(SelfUnited, CountsNothingTwice) {
+  // A bent tube that goes through itself: the union is less than the sum.
+  const TriangleMesh two = joined(sphere(12), shifted(sphere(12), {1.0, 0.1, 0.2}));
+  const MendedMesh one = selfUnited(two, taskFor(two));
+  expectClosed(one.mesh);
+  EXPECT_NEAR(volume(one.mesh), volume(unitedBodies(two, taskFor(two)).mesh), 1e-6);
+}
+
+TEST(Wrapped, KeepsTheVolumeOfASoup) {
+  const TriangleMesh body = blob(12);
+  TriangleMesh soup = unwelded(body);
+  Eigen::Index kept = 0;
+  for (Eigen::Index f = 0; f < soup.faces.rows(); ++f) {
+    if (f % 29 != 0) soup.faces.row(kept++) = Eigen::RowVector3i(soup.faces.row(f));
+  }
+  soup.faces.conservativeResize(kept, 3);
+  const MendedMesh result = wrapped(submesh(soup.vertices, soup.faces).mesh, taskFor(body));
+  expectClosed(result.mesh);
+  EXPECT_NEAR(volume(result.mesh), volume(body), 0.03 * volume(body));
+  EXPECT_LE(result.distance, taskFor(body).wall);
+  EXPECT_EQ(result.warning, "");
+  EXPECT_NE(result.done.find("wrapped, volume "), std::string::npos);
+}
+
+TEST(Wrapped, SaysWhereTheModelIsAnother) {
+  // A slot that no ball gets into takes 9 % of the box.
+  TriangleMesh slotted =
+      joined(box({2, 2, 2}, 4), reversed(shifted(box({1.8, 0.4, 1.0}, 4), {0, 0, 0.2})));
+  const MendedMesh result = wrapped(slotted, taskFor(slotted));
+  EXPECT_NE(result.warning.find("volume changed by +"), std::string::npos) << result.done;
+}
+
+TEST(Wrapped, LeavesWhatEnclosesNothing) {
+  const TriangleMesh sheet =
+      withoutFaces(box({1, 1, 1}, 4), [](const Vec3& p) { return p.z() < 0.4; });
+  EXPECT_TRUE(wrapped(submesh(sheet.vertices, sheet.faces).mesh, taskFor(sheet)).done.empty());
+}
+
+// ---------------------------------------------------------------- the way through them
+
+TEST(Mending, DoesNothingToAGoodModel) {
+  const TriangleMesh body = blob(6);
+  const RepairedMesh result = mended(body, taskFor(body));
+  EXPECT_EQ(result.repairs.describe(), "none");
+  EXPECT_EQ(result.mesh.vertices, body.vertices);
+  EXPECT_EQ(result.mesh.faces, body.faces);
+}
+
+TEST(Mending, KeepsTheOpeningsOfAShell) {
+  const TriangleMesh ball = sphere(8);
+  TriangleMesh vase = withoutFaces(ball, [](const Vec3& p) { return p.z() > 0.6; });
+  std::swap(vase.faces(5, 0), vase.faces(5, 1));
+  MendingTask task = taskFor(vase);
+  task.keepsOpenings = true;
+  const RepairedMesh result = mended(vase, task);
+  EXPECT_EQ(result.repairs.mended, "1 face turned over");
+  EXPECT_EQ(result.mesh.faces.rows(), vase.faces.rows());
+}
+
+/// Stands as a hollow body only; a hole in its side.
+TriangleMesh brokenPillar() {
+  const TriangleMesh pillar = transformed(roundedBox({1, 1, 2}, 0.15, 6, 2), shear(0.45));
+  const TriangleMesh open = withoutFaces(pillar, [&](const Vec3& p) {
+    return p.x() > 0.3 && std::abs(p.y()) < 0.12 && p.z() > 0.0 && p.z() < 0.3;
+  });
+  return submesh(open.vertices, open.faces).mesh;
+}
+
+TEST(Mending, DeliversTheMendedSurfaceWithItsCavity) {
+  const TriangleMesh model = brokenPillar();
+  const Result result = optimizeMassProperties(model, {});
+  EXPECT_EQ(std::get<std::string>(result.report.at("repairs")), "1 hole closed");
+  const double moved = std::get<double>(result.report.at("repair_distance"));
+  EXPECT_GT(moved, 0.0);
+  EXPECT_LT(moved, 0.1 * diagonal(model));
+  ASSERT_TRUE(result.outer.has_value());
+  ASSERT_GT(result.inner.faces.rows(), 0);
+  expectClosed(*result.outer);
+  expectClosed(result.inner);
+  EXPECT_EQ(intersectingPairs(result.inner, *result.outer), 0U);
+  EXPECT_TRUE(isInside(result.inner, *result.outer));
+  EXPECT_GE(leastDistance(result.inner, *result.outer), 0.01 * diagonal(*result.outer));
+}
+
+TEST(Mending, IsSwitchedOffByItsOption) {
+  Options options;
+  options.mend = false;
+  EXPECT_THROW(optimizeMassProperties(brokenPillar(), options), DefectiveSurface);
+}
+
+TEST(Mending, GivesTheSameBytesAgain) {
+  const TriangleMesh two = joined(blob(8), shifted(blob(7), {0.9, 0.3, 0.1}));
+  const RepairedMesh one = mended(two, taskFor(two));
+  const RepairedMesh other = mended(two, taskFor(two));
+  EXPECT_EQ(one.mesh.vertices, other.mesh.vertices);
+  EXPECT_EQ(one.mesh.faces, other.mesh.faces);
+}
+
+// ---------------------------------------------------------------- broken at random
+
+/// A clean solid and what was made of it.
+struct Broken {
+  std::string how;
+  TriangleMesh clean, broken;
+};
+
+class Breaker {
+public:
+  explicit Breaker(std::uint32_t seed) : random_(seed) {
+    for (int i = 0; i < 5; ++i) random_();
+  }
+
+  Broken make(int defect) {
+    switch (defect) {
+    case 0: {
+      const TriangleMesh body = solid();
+      return {"unwelded", body, jittered(unwelded(body), 2e-6 * diagonal(body), 7)};
+    }
+    case 1: {
+      const TriangleMesh body = solid();
+      TriangleMesh mixed = body;
+      for (Eigen::Index f = 0; f < mixed.faces.rows(); ++f) {
+        if (random_() > 0.6) std::swap(mixed.faces(f, 0), mixed.faces(f, 1));
+      }
+      return {"turned faces", body, mixed};
+    }
+    case 2: {
+      const TriangleMesh body = solid();
+      std::vector<Vec3> holes;
+      for (int i = between(1, 4); i > 0; --i) holes.emplace_back(somewhereOn(body));
+      const double radius = 0.05 * diagonal(body);
+      const TriangleMesh open = withoutFaces(body, [&](const Vec3& p) {
+        return std::any_of(holes.begin(), holes.end(),
+                           [&](const Vec3& hole) { return (p - hole).norm() < radius; });
+      });
+      return {"holes", body, submesh(open.vertices, open.faces).mesh};
+    }
+    case 3: {
+      const TriangleMesh body = solid();
+      TriangleMesh folded = body;
+      for (int i = between(1, 3); i > 0; --i) {
+        const Eigen::Index f = between(0, static_cast<int>(body.faces.rows()) - 1);
+        const Vec3 edge =
+            (body.vertices.row(body.faces(f, 1)) - body.vertices.row(body.faces(f, 0))).transpose();
+        folded.vertices.row(body.faces(f, 0)) += 1.9 * edge.transpose();
+      }
+      return {"folded vertices", body, folded};
+    }
+    case 4: {
+      // A spike on an edge that two faces have already.
+      const TriangleMesh body = solid();
+      const Vec3 a = body.vertices.row(body.faces(0, 0)).transpose();
+      const Vec3 b = body.vertices.row(body.faces(0, 1)).transpose();
+      const Vec3 out =
+          (b - a).cross(Vec3(body.vertices.row(body.faces(0, 2)).transpose()) - a).normalized();
+      const Vec3 c = 0.5 * (a + b) + 0.1 * (b - a).norm() * out;
+      const Vec3 d = c + 0.1 * (b - a).norm() * out + 0.05 * out.cross(b - a);
+      TriangleMesh spike = tetrahedron(a, b, c, d);
+      if (volume(spike) < 0.0) spike = reversed(spike);
+      return {"spike on an edge", body, withMergedPlaces(joined(body, spike))};
+    }
+    case 5: {
+      // Two lengths of one bar, which overlap.
+      const Vec3 size(2.0, 0.4 + 0.4 * share(), 0.4 + 0.4 * share());
+      const double cut = 0.6 * share();
+      const auto bar = [&](double from, double to) {
+        return shifted(box({to - from, size.y(), size.z()}, 3), {0.5 * (from + to), 0, 0});
+      };
+      const Mat3 turn = rotation(random_.vector().normalized(), 2.0 * share());
+      return {"overlapping lengths of a bar", transformed(box(size, 3), turn),
+              transformed(joined(bar(-1.0, cut), bar(cut - 0.5, 1.0)), turn)};
+    }
+    case 6: {
+      // A part that sticks in the body, with another tessellation, and one that lies within.
+      const TriangleMesh body = sphere(10);
+      const TriangleMesh knob =
+          transformed(sphere(3), 0.15 * Mat3::Identity(), 1.0 * random_.vector().normalized());
+      const TriangleMesh within = transformed(sphere(3), 0.2 * Mat3::Identity());
+      return {"parts in the body", body, joined(joined(body, knob), within)};
+    }
+    default: {
+      const TriangleMesh body = solid();
+      TriangleMesh soup = unwelded(body);
+      Eigen::Index kept = 0;
+      for (Eigen::Index f = 0; f < soup.faces.rows(); ++f) {
+        if (random_() > -0.94) soup.faces.row(kept++) = Eigen::RowVector3i(soup.faces.row(f));
+      }
+      soup.faces.conservativeResize(kept, 3);
+      soup = jittered(submesh(soup.vertices, soup.faces).mesh, 5e-4 * diagonal(body), 11);
+      return {"soup", body, soup};
+    }
+    }
+  }
+
+private:
+  double share() { return 0.5 * (1.0 + random_()); }
+  int between(int low, int high) {
+    return std::min(high, low + static_cast<int>(share() * (high - low + 1)));
+  }
+  Vec3 somewhereOn(const TriangleMesh& mesh) {
+    return mesh.vertices.row(between(0, static_cast<int>(mesh.vertices.rows()) - 1)).transpose();
+  }
+  TriangleMesh solid() {
+    const Mat3 turn = rotation(random_.vector().normalized(), 3.0 * share());
+    switch (between(0, 5)) {
+    case 0:
+      return transformed(blob(10), turn);
+    case 1:
+      return transformed(roundedBox({1, 0.6 + share(), 1.5}, 0.2, 8, 3), turn);
+    case 2:
+      return transformed(torus(1.0, 0.4, 30, 16), turn);
+    case 3:
+      return transformed(capsule(0.4, 1.0 + share(), 24), turn);
+    case 4:
+      return transformed(ellipsoid({1.0, 0.8, 0.6}, 10), turn);
+    default:
+      return transformed(smoothed(figure(4), 1), turn);
+    }
+  }
+
+  Random random_;
+};
+
+class BrokenAtRandom : public ::testing::TestWithParam<int> {};
+
+TEST_P(BrokenAtRandom, IsMendedToTheSolidThatItWas) {
+  constexpr int kSoup = 7;
+  const int cases = GetParam() == kSoup ? 3 : 12; // each of these is wrapped, which takes seconds
+  for (int number = 0; number < cases; ++number) {
+    const auto seed = static_cast<std::uint32_t>(1000 * GetParam() + number);
+    const Broken model = Breaker(seed).make(GetParam());
+    SCOPED_TRACE(model.how + ", seed " + std::to_string(seed));
+    const RepairedMesh result = mended(model.broken, taskFor(model.clean));
+    SCOPED_TRACE(result.repairs.describe());
+    EXPECT_NE(result.repairs.describe(), "none");
+    try {
+      const Solid solid = makeSolid(result.mesh);
+      requireNoCrossings(solid);
+      const Body clean = bodyOf(quadratureMoments(model.clean));
+      const Body body = bodyOf(quadratureMoments({solid.vertices(), solid.faces()}));
+      const bool isWrapped = result.repairs.mended.find("wrapped") != std::string::npos;
+      EXPECT_NEAR(body.mass, clean.mass, (isWrapped ? 0.03 : 0.01) * clean.mass);
+      EXPECT_LE((body.centre - clean.centre).norm(), 0.005 * diagonal(model.clean));
+    } catch (const InvalidInput& e) {
+      ADD_FAILURE() << e.what();
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Mending, BrokenAtRandom, ::testing::Range(0, 8));
+
+} // namespace
+} // namespace massprops::testing
