@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <memory>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -95,6 +97,9 @@ public:
     sets_.union_set(nextHalfEdge(h), g);
   }
 
+  CornerSets(const CornerSets&) = delete;
+  CornerSets& operator=(const CornerSets&) = delete;
+
   int of(int corner) { return sets_.find_set(corner); }
 
 private:
@@ -102,13 +107,16 @@ private:
   boost::disjoint_sets<int*, int*> sets_;
 };
 
-} // namespace
+/// An edge of more than two faces and the half-edges that are paired there.
+struct Pinch {
+  int low, high;
+  std::vector<std::pair<int, int>> pairs;
+};
 
-MendedMesh splitToManifold(const TriangleMesh& input, const MendingTask& /*task*/) {
-  MendedMesh result{input};
-  const std::vector<Side> sides = sidesOf(input.faces);
-  CornerSets sets(input.faces.size());
-  std::size_t edges = 0;
+/// Lets the corners stay together that are connected across edges.
+std::vector<Pinch> joinAcrossEdges(const TriangleMesh& mesh, CornerSets& sets) {
+  std::vector<Pinch> pinches;
+  const std::vector<Side> sides = sidesOf(mesh.faces);
   for (std::size_t i = 0; i < sides.size();) {
     std::size_t end = i;
     while (end < sides.size() && sides[end].low == sides[i].low &&
@@ -118,12 +126,81 @@ MendedMesh splitToManifold(const TriangleMesh& input, const MendingTask& /*task*
     if (end - i == 2 && sides[i].forward != sides[i + 1].forward) {
       sets.join(sides[i].halfEdge, sides[i + 1].halfEdge);
     } else if (end - i > 1) {
-      for (const auto& [h, g] : wedges(input, sides.data() + i, sides.data() + end))
-        sets.join(h, g);
-      ++edges;
+      pinches.push_back(
+          {sides[i].low, sides[i].high, wedges(mesh, sides.data() + i, sides.data() + end)});
+      for (const auto& [h, g] : pinches.back().pairs) sets.join(h, g);
     }
     i = end;
   }
+  return pinches;
+}
+
+/// Whether two pairs keep both ends in common, so that parting vertices does not part the edge.
+bool staysPinched(const Pinch& pinch, const Faces& faces, CornerSets& sets) {
+  std::vector<std::pair<int, int>> ends;
+  for (const auto& [h, g] : pinch.pairs) {
+    const int from = faces.data()[h] == pinch.low ? h : nextHalfEdge(h);
+    const int to = from == h ? nextHalfEdge(h) : h;
+    ends.emplace_back(sets.of(from), sets.of(to));
+  }
+  std::sort(ends.begin(), ends.end());
+  return std::adjacent_find(ends.begin(), ends.end()) != ends.end();
+}
+
+/// Edges of these get a vertex in their middle, one in each face.
+TriangleMesh withMiddles(const TriangleMesh& mesh, const std::vector<const Pinch*>& pinches) {
+  std::map<std::pair<int, int>, int> middleOf;
+  TriangleMesh result = mesh;
+  auto rows = mesh.vertices.rows();
+  result.vertices.conservativeResize(rows + static_cast<Eigen::Index>(pinches.size()), 3);
+  for (const Pinch* pinch : pinches) {
+    middleOf.emplace(std::pair(pinch->low, pinch->high), static_cast<int>(rows));
+    result.vertices.row(rows++) =
+        0.5 * (mesh.vertices.row(pinch->low) + mesh.vertices.row(pinch->high));
+  }
+  std::vector<Eigen::RowVector3i> faces;
+  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
+    // The corners with the middles between them, cut into a fan from a middle.
+    std::vector<int> ring;
+    std::size_t first = 0;
+    for (int k = 0; k < 3; ++k) {
+      const int a = mesh.faces(f, k);
+      const int b = mesh.faces(f, (k + 1) % 3);
+      ring.push_back(a);
+      const auto found = middleOf.find(std::minmax(a, b));
+      if (found == middleOf.end()) continue;
+      first = ring.size();
+      ring.push_back(found->second);
+    }
+    for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
+      faces.emplace_back(ring[first], ring[(first + i) % ring.size()],
+                         ring[(first + i + 1) % ring.size()]);
+    }
+  }
+  result.faces.resize(static_cast<Eigen::Index>(faces.size()), 3);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    result.faces.row(static_cast<Eigen::Index>(i)) = faces[i];
+  }
+  return result;
+}
+
+} // namespace
+
+MendedMesh splitToManifold(const TriangleMesh& given, const MendingTask& /*task*/) {
+  TriangleMesh input = given;
+  auto sets = std::make_unique<CornerSets>(input.faces.size());
+  std::vector<Pinch> pinches = joinAcrossEdges(input, *sets);
+  const std::size_t edges = pinches.size();
+  std::vector<const Pinch*> tight;
+  for (const Pinch& pinch : pinches) {
+    if (staysPinched(pinch, input.faces, *sets)) tight.push_back(&pinch);
+  }
+  if (!tight.empty()) {
+    input = withMiddles(input, tight);
+    sets = std::make_unique<CornerSets>(input.faces.size());
+    pinches = joinAcrossEdges(input, *sets);
+  }
+  MendedMesh result{input};
 
   // A vertex for each set of corners: the first keeps the number.
   const VertexCorners corners = vertexCorners(input.vertices.rows(), input.faces);
@@ -133,7 +210,7 @@ MendedMesh splitToManifold(const TriangleMesh& input, const MendingTask& /*task*
   const double most = placeTolerance(input.vertices);
   for (Eigen::Index v = 0; v < input.vertices.rows(); ++v) {
     std::vector<int> roots;
-    for (const int c : corners.at(v)) roots.push_back(sets.of(c));
+    for (const int c : corners.at(v)) roots.push_back(sets->of(c));
     std::sort(roots.begin(), roots.end());
     roots.erase(std::unique(roots.begin(), roots.end()), roots.end());
     if (roots.size() < 2) continue;
@@ -146,7 +223,7 @@ MendedMesh splitToManifold(const TriangleMesh& input, const MendingTask& /*task*
           r == 0 ? static_cast<int>(v)
                  : static_cast<int>(input.vertices.rows()) + static_cast<int>(added.size());
       for (const int c : corners.at(v)) {
-        if (sets.of(c) != roots[r]) continue;
+        if (sets->of(c) != roots[r]) continue;
         normal += areaNormal(input.vertices, input.faces, c / 3).stableNormalized();
         const int next = input.faces.data()[nextHalfEdge(c)];
         shortest = std::min(shortest, (input.vertices.row(next).transpose() - place).norm());
@@ -160,7 +237,7 @@ MendedMesh splitToManifold(const TriangleMesh& input, const MendingTask& /*task*
       }
     }
   }
-  if (vertices == 0) return {input};
+  if (vertices == 0) return {given};
   const Eigen::Index rows = mesh.vertices.rows();
   mesh.vertices.conservativeResize(rows + static_cast<Eigen::Index>(added.size()), 3);
   for (std::size_t i = 0; i < added.size(); ++i) {

@@ -5,7 +5,6 @@
 #include "core/model/local_crossings.h"
 #include "core/model/manifold_split.h"
 #include "core/model/seams.h"
-#include "core/model/self_union.h"
 #include "core/model/shell_orientation.h"
 #include "core/model/solid.h"
 #include "core/model/united_bodies.h"
@@ -20,10 +19,13 @@ namespace {
 
 /// Of an open surface that keeps its openings: what leads to a manifold.
 const std::vector<MendingStep> kToManifold = {joinedSeams, orientedShells, splitToManifold};
-/// From there to a solid. A union may leave slivers that cross.
-const std::vector<MendingStep> kToSolid = {
-    closedHoles, withoutLocalCrossings, withoutEmptyShells, unitedBodies, withoutLocalCrossings,
-    selfUnited,  withoutLocalCrossings, withoutEmptyShells};
+/// From there to a solid.
+const std::vector<MendingStep> kToSolid = {closedHoles, withoutLocalCrossings, withoutEmptyShells};
+/// What a union leaves is rounded to what the caller can store, and may have slivers that cross:
+/// the same again.
+const std::vector<MendingStep> kUnion = {unitedBodies, joinedSeams, withoutLocalCrossings,
+                                         withoutEmptyShells};
+constexpr int kMostUnions = 3;
 
 bool isSolid(const TriangleMesh& mesh, bool keepsOpenings) {
   try {
@@ -63,6 +65,9 @@ RepairedMesh mended(const TriangleMesh& input, const MendingTask& task) {
   if (go(kToManifold, task, model) || task.keepsOpenings) return model;
   const RepairedMesh manifold = model;
   if (go(kToSolid, task, model)) return model;
+  for (int round = 0; round < kMostUnions; ++round) {
+    if (go(kUnion, task, model)) return model;
+  }
   // What was tried since is left to the wrap, but for holes that it need not find again.
   RepairedMesh closed = manifold;
   take(closedHoles, task, closed);

@@ -1,18 +1,18 @@
 #include "core/model/united_bodies.h"
 
-#include "core/mesh/cgal_mesh.h"
+#include "core/base/triangle.h"
 #include "core/mesh/components.h"
-#include "core/mesh/connectivity.h"
 #include "core/mesh/signed_volume.h"
+#include "core/model/crossing_refinement.h"
+#include "core/model/manifold_split.h"
 #include "core/query/point_in_mesh.h"
 #include "core/query/self_intersection.h"
 #include "core/query/triangle_tree.h"
-
-#include <CGAL/Polygon_mesh_processing/corefinement.h>
+#include "core/query/winding_number.h"
 
 #include <algorithm>
-#include <optional>
-#include <stdexcept>
+#include <array>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -23,59 +23,115 @@ std::size_t at(Eigen::Index i) {
   return static_cast<std::size_t>(i);
 }
 
-/// More are no assembly but a soup.
-constexpr std::size_t kMostBodies = 400;
+/// More are a soup, and take long.
+constexpr std::size_t kMostCrossings = 40000;
 
-/// The union as a closed surface; empty where it has none that is manifold, or where one of them
-/// crosses itself.
-std::optional<TriangleMesh> unionOf(const TriangleMesh& a, const TriangleMesh& b) {
-  auto one = surfaceMesh(a.vertices, a.faces);
-  auto two = surfaceMesh(b.vertices, b.faces);
-  SurfaceMesh all;
-  try {
-    if (!CGAL::Polygon_mesh_processing::corefine_and_compute_union(
-            one, two, all, CGAL::parameters::throw_on_self_intersection(true))) {
-      return std::nullopt;
+/// Whether as many faces run along every edge as against it.
+bool isBalanced(const Faces& faces) {
+  std::vector<std::array<int, 3>> sides;
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const int a = faces(f, k);
+      const int b = faces(f, (k + 1) % 3);
+      sides.push_back({std::min(a, b), std::max(a, b), a < b ? 1 : -1});
     }
-  } catch (const std::exception&) {
-    return std::nullopt;
   }
-  all.collect_garbage();
-  return triangleMesh(all);
+  std::sort(sides.begin(), sides.end());
+  for (std::size_t i = 0; i < sides.size();) {
+    int sum = 0;
+    std::size_t end = i;
+    for (; end < sides.size() && sides[end][0] == sides[i][0] && sides[end][1] == sides[i][1];
+         ++end) {
+      sum += sides[end][2];
+    }
+    if (sum != 0) return false;
+    i = end;
+  }
+  return true;
 }
 
-/// One after the other, in pairs of about equal size.
-std::optional<TriangleMesh> unionOf(std::vector<TriangleMesh> bodies) {
-  while (bodies.size() > 1) {
-    std::vector<TriangleMesh> next;
-    for (std::size_t i = 0; i < bodies.size(); i += 2) {
-      if (i + 1 == bodies.size()) {
-        next.push_back(std::move(bodies[i]));
-        continue;
-      }
-      std::optional<TriangleMesh> both = unionOf(bodies[i], bodies[i + 1]);
-      if (!both) return std::nullopt;
-      next.push_back(std::move(*both));
-    }
-    bodies = std::move(next);
-  }
-  return std::move(bodies.front());
-}
-
-/// Numbers of the components that cross another one; empty where one of them crosses itself.
-std::optional<std::vector<char>> crossingOthers(const TriangleMesh& mesh,
-                                                const std::vector<Submesh>& components) {
+/// Bodies that face inwards and cross others are turned over.
+TriangleMesh outward(const TriangleMesh& mesh, const std::vector<int>& crossing) {
+  TriangleMesh result = mesh;
   const std::vector<int> number = componentNumbers(mesh.vertices.rows(), mesh.faces);
-  std::vector<char> crosses(components.size(), 0);
-  for (const int f : selfIntersectingFaces(mesh.vertices, mesh.faces)) {
-    crosses[at(number[at(mesh.faces(f, 0))])] = 1;
-  }
+  const Components components = connectedComponents(mesh.vertices.rows(), mesh.faces);
+  std::vector<char> turns(components.size(), 0);
+  for (const int f : crossing) turns[at(number[at(mesh.faces(f, 0))])] = 1;
   for (std::size_t c = 0; c < components.size(); ++c) {
-    if (crosses[c] == 0) continue;
-    const TriangleMesh& part = components[c].mesh;
-    if (!selfIntersectingFaces(part.vertices, part.faces).empty()) return std::nullopt;
+    if (turns[c] != 0 && signedVolume(mesh.vertices, components[c]) >= 0.0) turns[c] = 0;
   }
-  return crosses;
+  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
+    if (turns[at(number[at(mesh.faces(f, 0))])] != 0) {
+      std::swap(result.faces(f, 1), result.faces(f, 2));
+    }
+  }
+  return result;
+}
+
+/// Faces that are connected across edges of two faces, which agree in orientation.
+std::vector<std::vector<int>> patchesOf(const Faces& faces) {
+  std::vector<std::array<int, 4>> sides; // edge, face, direction
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const int a = faces(f, k);
+      const int b = faces(f, (k + 1) % 3);
+      sides.push_back({std::min(a, b), std::max(a, b), static_cast<int>(f), a < b ? 1 : 0});
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  std::vector<std::vector<int>> next(at(faces.rows()));
+  for (std::size_t i = 0; i < sides.size();) {
+    std::size_t end = i;
+    while (end < sides.size() && sides[end][0] == sides[i][0] && sides[end][1] == sides[i][1])
+      ++end;
+    if (end - i == 2 && sides[i][3] != sides[i + 1][3]) {
+      next[at(sides[i][2])].push_back(sides[i + 1][2]);
+      next[at(sides[i + 1][2])].push_back(sides[i][2]);
+    }
+    i = end;
+  }
+  std::vector<std::vector<int>> patches;
+  std::vector<char> isKnown(at(faces.rows()), 0);
+  for (Eigen::Index seed = 0; seed < faces.rows(); ++seed) {
+    if (isKnown[at(seed)] != 0) continue;
+    std::vector<int> patch{static_cast<int>(seed)};
+    isKnown[at(seed)] = 1;
+    for (std::size_t i = 0; i < patch.size(); ++i) {
+      for (const int g : next[at(patch[i])]) {
+        if (isKnown[at(g)] != 0) continue;
+        isKnown[at(g)] = 1;
+        patch.push_back(g);
+      }
+    }
+    patches.push_back(std::move(patch));
+  }
+  return patches;
+}
+
+/// Whether the material ends at the patch: told in the middle of its roundest large face.
+bool isBoundary(const TriangleMesh& mesh, const std::vector<int>& patch,
+                const WindingNumber& winding) {
+  double widest = -1.0;
+  int best = patch.front();
+  for (const int f : patch) {
+    const double twiceArea = areaNormal(mesh.vertices, mesh.faces, f).norm();
+    double edges = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      edges += (mesh.vertices.row(mesh.faces(f, k)) - mesh.vertices.row(mesh.faces(f, (k + 1) % 3)))
+                   .norm();
+    }
+    const double inradius = edges > 0.0 ? twiceArea / edges : 0.0;
+    if (inradius > widest) {
+      widest = inradius;
+      best = f;
+    }
+  }
+  const Vec3 normal = areaNormal(mesh.vertices, mesh.faces, best).stableNormalized();
+  Vec3 middle = Vec3::Zero();
+  for (const int v : mesh.faces.row(best)) middle += mesh.vertices.row(v).transpose() / 3.0;
+  constexpr double kBeside = 0.01;
+  return winding.at(middle + kBeside * widest * normal) < 0.5 &&
+         winding.at(middle - kBeside * widest * normal) >= 0.5;
 }
 
 /// Components of bodies that do not cross: those that bound material from outside, and the cavities
@@ -119,40 +175,31 @@ TriangleMesh withoutWhatIsInside(const TriangleMesh& mesh, std::size_t& inside) 
 
 } // namespace
 
-MendedMesh unitedBodies(const TriangleMesh& input, const MendingTask& /*task*/) {
-  const EdgeCounts edges = countEdges(input.vertices.rows(), input.faces);
-  if (edges.boundary + edges.nonManifold + edges.incoherent > 0) return {input};
-  std::vector<Submesh> components = componentMeshes(input.vertices, input.faces);
-  if (components.size() < 2) return {input};
-  const std::optional<std::vector<char>> crosses = crossingOthers(input, components);
-  if (!crosses) return {input};
-
+MendedMesh unitedBodies(const TriangleMesh& input, const MendingTask& task) {
+  if (!isBalanced(input.faces)) return {input};
   MendedMesh result{input};
-  std::vector<TriangleMesh> bodies;
-  std::vector<TriangleMesh> others;
-  for (std::size_t c = 0; c < components.size(); ++c) {
-    TriangleMesh& part = components[c].mesh;
-    if ((*crosses)[c] != 0 && signedVolume(part.vertices, part.faces) < 0.0) flip(part.faces);
-    ((*crosses)[c] != 0 ? bodies : others).push_back(std::move(part));
-  }
-  const std::size_t united = bodies.size();
-  if (united > kMostBodies) return {input};
-  if (united > 1) {
-    // From left to right, so that neighbours meet early.
-    std::stable_sort(bodies.begin(), bodies.end(),
-                     [](const TriangleMesh& a, const TriangleMesh& b) {
-                       return a.vertices.col(0).minCoeff() < b.vertices.col(0).minCoeff();
-                     });
-    std::optional<TriangleMesh> all = unionOf(std::move(bodies));
-    if (!all) return {input};
-    others.push_back(std::move(*all));
-    result.mesh = assembled(others);
-    result.done = counted(united, "overlapping body", "overlapping bodies") + " united";
+  const std::vector<int> crossing = selfIntersectingFaces(input.vertices, input.faces);
+  if (crossing.size() > kMostCrossings) return {input};
+  if (!crossing.empty()) {
+    const TriangleMesh bodies = outward(input, crossing);
+    const TriangleMesh pieces = cutAlongCrossings(bodies, crossing);
+    if (pieces.faces.rows() == 0) return {input};
+    const WindingNumber winding(bodies.vertices, bodies.faces);
+    Faces kept(pieces.faces.rows(), 3);
+    Eigen::Index rows = 0;
+    for (const std::vector<int>& patch : patchesOf(pieces.faces)) {
+      if (!isBoundary(pieces, patch, winding)) continue;
+      for (const int f : patch) kept.row(rows++) = pieces.faces.row(f);
+    }
+    kept.conservativeResize(rows, 3);
+    if (rows == 0 || !isBalanced(kept)) return {input};
+    result = splitToManifold(submesh(pieces.vertices, kept).mesh, task);
+    result.done = counted(crossing.size(), "crossing face", "crossing faces") + " united";
   }
   std::size_t inside = 0;
   result.mesh = withoutWhatIsInside(result.mesh, inside);
   if (inside > 0) {
-    result.done += (united > 1 ? ", " : "") + counted(inside, "component", "components") +
+    result.done += (crossing.empty() ? "" : ", ") + counted(inside, "component", "components") +
                    " inside of another left out";
   }
   return result;

@@ -5,10 +5,11 @@
 
 namespace massprops {
 
-/// Unites components that cross each other, and leaves out those that lie within the material of
-/// others. Components inside of a body that face the other way are its cavities and stay; what lies
-/// in a cavity is left out, for the new one takes its place. \pre closed components; those that
-/// cross themselves are left as they are, with all that they cross
+/// Cuts all faces along the lines where they cross and keeps the pieces that have nothing in front
+/// of them and material behind, by the winding number: the union of bodies that cross each other or
+/// themselves; what is turned inside out goes. Components inside of a body that face the other way
+/// are its cavities and stay; what lies in a cavity is left out, for the new one takes its place.
+/// \pre as many faces run along every edge as against it, otherwise nothing is done
 MendedMesh unitedBodies(const TriangleMesh& mesh, const MendingTask& task);
 
 } // namespace massprops

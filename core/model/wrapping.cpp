@@ -26,7 +26,7 @@ namespace {
 /// Beyond these it is another model.
 constexpr double kMostVolume = 0.03;
 /// Of the box's diagonal, from the finest ball to the coarsest.
-constexpr double kBalls[] = {1.0 / 100.0, 1.0 / 50.0, 1.0 / 33.0, 1.0 / 20.0, 1.0 / 10.0};
+constexpr double kBalls[] = {1.0 / 60.0, 1.0 / 30.0, 1.0 / 15.0};
 
 std::optional<TriangleMesh> wrapOf(const TriangleMesh& mesh, double ball, double offset) {
   std::vector<SurfaceKernel::Point_3> points;

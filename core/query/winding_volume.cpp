@@ -10,7 +10,7 @@
 namespace massprops {
 
 WindingVolume windingVolumes(const TriangleMesh& mesh, const TriangleMesh& other) {
-  constexpr double kCubes = 72.0; // along the longest side
+  constexpr double kCubes = 48.0; // along the longest side
   Eigen::AlignedBox3d box;
   for (const TriangleMesh* part : {&mesh, &other}) {
     if (part->vertices.rows() == 0) continue;

@@ -85,7 +85,7 @@ class MendedTest(HostTest):
         points, faces = cube()
         report, layers = self.outer_and_inner(np.vstack([points, points + [5, 0.5, 0.25]]),
                                               np.vstack([faces, faces + len(points)]))
-        self.assertIn("2 overlapping bodies united", report["repairs"])
+        self.assertIn("crossing faces united", report["repairs"])
         self.assertEqual(bounds_a_volume(*layers), "")
         overlap = 5.0 * 9.5 * 9.75
         self.assertAlmostEqual(measure.body(*read_ply(layers[0]), 1.0)[0], 2000.0 - overlap,
