@@ -109,6 +109,7 @@ void addRepairs(const Repairs& repairs, Report& report) {
   report.add("duplicate_faces", repairs.duplicateFaces);
   report.add("flipped_components", repairs.flippedComponents);
   report.add("replaced_cavities", repairs.replacedCavities);
+  report.add("mended", !repairs.mended.empty());
   report.add("repair_distance", repairs.distance);
 }
 

@@ -11,6 +11,7 @@
 #include "core/model/wrapping.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -66,7 +67,9 @@ RepairedMesh mended(const TriangleMesh& input, const MendingTask& task) {
   const RepairedMesh manifold = model;
   if (go(kToSolid, task, model)) return model;
   for (int round = 0; round < kMostUnions; ++round) {
+    const std::string before = model.repairs.mended;
     if (go(kUnion, task, model)) return model;
+    if (model.repairs.mended == before) break;
   }
   // What was tried since is left to the wrap, but for holes that it need not find again.
   RepairedMesh closed = manifold;

@@ -173,6 +173,53 @@ TriangleMesh withoutWhatIsInside(const TriangleMesh& mesh, std::size_t& inside) 
   return inside == 0 ? mesh : assembled(kept);
 }
 
+/// The union of what crosses; nothing done where it cannot be had.
+MendedMesh united(const TriangleMesh& input, const std::vector<int>& crossing,
+                  const MendingTask& task) {
+  const TriangleMesh bodies = outward(input, crossing);
+  const TriangleMesh pieces = cutAlongCrossings(bodies, crossing);
+  if (pieces.faces.rows() == 0) return {input};
+  const WindingNumber winding(bodies.vertices, bodies.faces);
+  Faces kept(pieces.faces.rows(), 3);
+  Eigen::Index rows = 0;
+  for (const std::vector<int>& patch : patchesOf(pieces.faces)) {
+    if (!isBoundary(pieces, patch, winding)) continue;
+    for (const int f : patch) kept.row(rows++) = pieces.faces.row(f);
+  }
+  kept.conservativeResize(rows, 3);
+  if (rows == 0 || !isBalanced(kept)) return {input};
+  MendedMesh result = splitToManifold(submesh(pieces.vertices, kept).mesh, task);
+  result.done = counted(crossing.size(), "crossing face", "crossing faces") + " united";
+  return result;
+}
+
+std::size_t crossingsOf(const MendedMesh& result, const MendingTask& task) {
+  const Points stored = task.representable(result.mesh.vertices);
+  return selfIntersectingFaces(stored, result.mesh.faces).size();
+}
+
+/// Every component a little larger, each by another share, so that sides that lie in one plane but
+/// for rounding do so no more.
+TriangleMesh grown(const TriangleMesh& mesh) {
+  constexpr double kMost = 1e-4;
+  constexpr int kShares = 7;
+  TriangleMesh result = mesh;
+  const std::vector<int> number = componentNumbers(mesh.vertices.rows(), mesh.faces);
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
+    if (number[at(v)] < 0) continue;
+    if (boxes.size() <= at(number[at(v)])) boxes.resize(at(number[at(v)]) + 1);
+    boxes[at(number[at(v)])].extend(Vec3(mesh.vertices.row(v).transpose()));
+  }
+  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
+    if (number[at(v)] < 0) continue;
+    const Vec3 centre = boxes[at(number[at(v)])].center();
+    const double share = kMost * (1 + number[at(v)] % kShares) / kShares;
+    result.vertices.row(v) += share * (mesh.vertices.row(v) - centre.transpose());
+  }
+  return result;
+}
+
 } // namespace
 
 MendedMesh unitedBodies(const TriangleMesh& input, const MendingTask& task) {
@@ -181,20 +228,18 @@ MendedMesh unitedBodies(const TriangleMesh& input, const MendingTask& task) {
   const std::vector<int> crossing = selfIntersectingFaces(input.vertices, input.faces);
   if (crossing.size() > kMostCrossings) return {input};
   if (!crossing.empty()) {
-    const TriangleMesh bodies = outward(input, crossing);
-    const TriangleMesh pieces = cutAlongCrossings(bodies, crossing);
-    if (pieces.faces.rows() == 0) return {input};
-    const WindingNumber winding(bodies.vertices, bodies.faces);
-    Faces kept(pieces.faces.rows(), 3);
-    Eigen::Index rows = 0;
-    for (const std::vector<int>& patch : patchesOf(pieces.faces)) {
-      if (!isBoundary(pieces, patch, winding)) continue;
-      for (const int f : patch) kept.row(rows++) = pieces.faces.row(f);
+    result = united(input, crossing, task);
+    if (crossingsOf(result, task) > 0) {
+      TriangleMesh larger = grown(input);
+      const double moved = (larger.vertices - input.vertices).rowwise().norm().maxCoeff();
+      larger.vertices = task.representable(larger.vertices);
+      MendedMesh other = united(larger, selfIntersectingFaces(larger.vertices, larger.faces), task);
+      if (!other.done.empty() && crossingsOf(other, task) < crossingsOf(result, task)) {
+        result = std::move(other);
+        result.distance = std::max(result.distance, moved);
+      }
     }
-    kept.conservativeResize(rows, 3);
-    if (rows == 0 || !isBalanced(kept)) return {input};
-    result = splitToManifold(submesh(pieces.vertices, kept).mesh, task);
-    result.done = counted(crossing.size(), "crossing face", "crossing faces") + " united";
+    if (result.done.empty()) return {input};
   }
   std::size_t inside = 0;
   result.mesh = withoutWhatIsInside(result.mesh, inside);

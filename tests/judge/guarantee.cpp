@@ -702,8 +702,8 @@ void checkOuter(const PropertyCase& c, const Result& result, Findings& found) {
   found.require(!alone || (moves && !hollow && !hadCavities),
                 "the outer surface is said to move alone without a reason");
   const bool flipped = std::get<int>(result.report.at("flipped_components")) > 0;
-  found.require(result.outer.has_value() ==
-                    (alone || (hollow && (moves || hadCavities || flipped))),
+  found.require(c.isBroken || result.outer.has_value() ==
+                                  (alone || (hollow && (moves || hadCavities || flipped))),
                 result.outer ? "there is an outer surface without a reason"
                              : "the new outer surface is missing");
   if (!result.outer) return;

@@ -449,6 +449,42 @@ std::string upName(UpAxis up) {
   return "";
 }
 
+/// Defects as published models have them: faces turned over, twice, and with corners of their own
+/// that lie apart by little; one vertex without its faces, a hole.
+TriangleMesh broken(const TriangleMesh& mesh, Chance& chance, std::string& how) {
+  TriangleMesh result = mesh;
+  const auto n = static_cast<int>(mesh.faces.rows());
+  if (chance.oneIn(2)) {
+    how += " hole";
+    const int vertex = mesh.faces(chance.integer(0, n - 1), 0);
+    Eigen::Index kept = 0;
+    for (Eigen::Index f = 0; f < result.faces.rows(); ++f) {
+      if ((mesh.faces.row(f).array() != vertex).all()) {
+        result.faces.row(kept++) = mesh.faces.row(f);
+      }
+    }
+    result.faces.conservativeResize(kept, 3);
+  }
+  if (chance.oneIn(2)) {
+    how += " turned faces";
+    for (Eigen::Index f = 0; f < result.faces.rows(); ++f) {
+      if (chance.oneIn(9)) std::swap(result.faces(f, 0), result.faces(f, 1));
+    }
+  }
+  if (how.empty() || chance.oneIn(2)) {
+    how += " loose";
+    result = jittered(unwelded(result), 1e-6 * diagonalOf(mesh), 5);
+  }
+  if (chance.oneIn(3)) {
+    how += " double faces";
+    const Eigen::Index rows = result.faces.rows();
+    result.faces.conservativeResize(rows + rows / 10, 3);
+    for (Eigen::Index f = 0; f < rows / 10; ++f)
+      result.faces.row(rows + f) = result.faces.row(3 * f);
+  }
+  return result;
+}
+
 } // namespace
 
 PropertyCase makeCase(std::uint32_t seed, int number) {
@@ -597,6 +633,19 @@ PropertyCase makeCase(std::uint32_t seed, int number) {
   if (o.goal == GoalKind::Mass) text << " target " << o.targetMass;
   if (o.pivot) text << " pivot";
   if (o.weights.volume > 0.0) text << " volume weight " << o.weights.volume;
+  // Of fine bodies, for on a coarse one a vertex's faces are no small hole; far away floats lie
+  // farther apart than what is merged.
+  constexpr int kSomeOfThem = 4;
+  constexpr Eigen::Index kFine = 400;
+  if (number % kSomeOfThem == 1 && c.body.faces.rows() >= kFine && distance == 0.0 && !mirrored &&
+      c.cavities.faces.rows() == 0 && o.outerUpperBound == 0.0) {
+    Chance defects(seed + 1U, number);
+    std::string how;
+    c.input = broken(c.body, defects, how);
+    if (c.floats) c.input = rounded(c.input);
+    c.isBroken = o.mend = true;
+    text << "; broken:" << how;
+  }
   c.description = text.str();
   return c;
 }

@@ -22,6 +22,7 @@ struct PropertyCase {
   Options options;
   double wall = 0.0; ///< that is asked for, in model units
   bool floats = false;
+  bool isBroken = false; ///< `input` has defects that are to be mended: `body` is what it was
 };
 
 /// Models have up to about 3000 vertices. Some cross themselves: they are to be refused.
