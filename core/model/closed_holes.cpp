@@ -153,6 +153,7 @@ TriangleMesh filled(const TriangleMesh& mesh, std::vector<Loop>& loops, const Me
 /// Marks the loops whose patches cross something of their own component.
 void findCrossings(const TriangleMesh& mesh, std::vector<Loop>& loops) {
   const std::vector<int> number = componentNumbers(mesh.vertices.rows(), mesh.faces);
+  const std::vector<Submesh> parts = componentMeshes(mesh.vertices, mesh.faces);
   std::vector<std::vector<int>> facesOf;
   for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
     const auto c = at(number[at(mesh.faces(f, 0))]);
@@ -164,11 +165,8 @@ void findCrossings(const TriangleMesh& mesh, std::vector<Loop>& loops) {
   for (const Loop& loop : loops) isAsked[at(number[at(loop.border.front())])] = 1;
   for (std::size_t c = 0; c < facesOf.size(); ++c) {
     if (isAsked[c] == 0) continue;
-    Faces faces(static_cast<Eigen::Index>(facesOf[c].size()), 3);
-    for (std::size_t i = 0; i < facesOf[c].size(); ++i) {
-      faces.row(static_cast<Eigen::Index>(i)) = mesh.faces.row(facesOf[c][i]);
-    }
-    for (const int f : selfIntersectingFaces(mesh.vertices, faces)) {
+    const TriangleMesh& part = parts[c].mesh;
+    for (const int f : selfIntersectingFaces(part.vertices, part.faces)) {
       crosses[at(facesOf[c][at(f)])] = 1;
     }
   }

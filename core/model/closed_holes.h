@@ -10,6 +10,6 @@ namespace massprops {
 /// that run along another component, or whose patch would enclose nothing, stay open: they are
 /// seams of a surface in pieces. \pre a coherently oriented 2-manifold
 /// \throw InvalidInput where another loop is left: an opening as a vase has it
-MendedMesh closedHoles(const TriangleMesh& mesh, const MendingTask& task);
+MendedMesh closedHoles(const TriangleMesh& input, const MendingTask& task);
 
 } // namespace massprops

@@ -7,6 +7,6 @@ namespace massprops {
 
 /// Leaves out closed components thinner on average than can be told from nothing, where others are
 /// left.
-MendedMesh withoutEmptyShells(const TriangleMesh& mesh, const MendingTask& task);
+MendedMesh withoutEmptyShells(const TriangleMesh& input, const MendingTask& task);
 
 } // namespace massprops

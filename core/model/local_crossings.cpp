@@ -107,7 +107,7 @@ std::optional<TriangleMesh> replaced(const TriangleMesh& mesh, const std::vector
     }
     Faces filling = holeFilling(patch.mesh, local);
     if (filling.rows() == 0) return std::nullopt;
-    pieces.push_back(filling.unaryExpr([&](int v) { return patch.vertexOf[at(v)]; }));
+    pieces.emplace_back(filling.unaryExpr([&](int v) { return patch.vertexOf[at(v)]; }));
   }
   Eigen::Index all = 0;
   for (const Faces& piece : pieces) all += piece.rows();
@@ -140,8 +140,8 @@ struct Mended {
 };
 
 /// One component without its crossings; empty where that fails.
-std::optional<Mended> mendedComponent(const TriangleMesh& component, std::vector<int> crossing,
-                                      const MendingTask& task) {
+std::optional<Mended> mendedComponent(const TriangleMesh& component,
+                                      const std::vector<int>& crossing, const MendingTask& task) {
   constexpr double kMostVolume = 0.005;
   constexpr double kMostFaces = 0.1;
   constexpr std::size_t kFew = 100;
@@ -197,6 +197,7 @@ MendedMesh withoutLocalCrossings(const TriangleMesh& input, const MendingTask& t
   }
   if (mended == 0) return result;
   std::vector<TriangleMesh> parts;
+  parts.reserve(components.size());
   for (Submesh& component : components) parts.push_back(std::move(component.mesh));
   result.mesh = assembled(parts);
   result.done = counted(mended, "crossing face", "crossing faces") + " replaced";

@@ -9,6 +9,6 @@ namespace massprops {
 /// them, and closes the holes; only where that is little of the surface and leaves the volume as it
 /// was, within half a per cent, and the surface where it was, within a wall. What cannot be mended
 /// so stays. \pre a closed, coherently oriented 2-manifold
-MendedMesh withoutLocalCrossings(const TriangleMesh& mesh, const MendingTask& task);
+MendedMesh withoutLocalCrossings(const TriangleMesh& input, const MendingTask& task);
 
 } // namespace massprops

@@ -8,6 +8,6 @@ namespace massprops {
 /// Turns faces over so that neighbours across edges of two faces agree; a connected patch that this
 /// concerns, or that ends where more than two faces meet, faces outward by the parity of crossings
 /// from its faces outwards, as most of them say.
-MendedMesh orientedShells(const TriangleMesh& mesh, const MendingTask& task);
+MendedMesh orientedShells(const TriangleMesh& input, const MendingTask& task);
 
 } // namespace massprops

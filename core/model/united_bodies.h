@@ -10,6 +10,6 @@ namespace massprops {
 /// themselves; what is turned inside out goes. Components inside of a body that face the other way
 /// are its cavities and stay; what lies in a cavity is left out, for the new one takes its place.
 /// \pre as many faces run along every edge as against it, otherwise nothing is done
-MendedMesh unitedBodies(const TriangleMesh& mesh, const MendingTask& task);
+MendedMesh unitedBodies(const TriangleMesh& input, const MendingTask& task);
 
 } // namespace massprops

@@ -10,6 +10,6 @@ namespace massprops {
 /// volume. How far both surfaces are from each other, where the old one shows, and by how much the
 /// volume changed is told; beyond one wall or 3 % with a warning. [PRHCA22]
 /// Nothing is done where the triangles enclose nothing.
-MendedMesh wrapped(const TriangleMesh& mesh, const MendingTask& task);
+MendedMesh wrapped(const TriangleMesh& input, const MendingTask& task);
 
 } // namespace massprops
