@@ -115,7 +115,7 @@ std::optional<Levels> levelsOf(const TriangleMesh& mesh, double wall, const Case
   for (const double radius : {0.0, 0.03 * diagonal}) {
     if (radius > 0.0) options.radiusX = options.radiusY = radius;
     try {
-      const Preparation model(mesh, options, Resolution::Coarse);
+      const Preparation model(mesh, options, Resolution::Coarse, {});
       return levelsOf(model, options, c);
     } catch (const InvalidInput&) {
     }

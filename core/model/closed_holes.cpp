@@ -110,6 +110,7 @@ void fill(Mesh& mesh, Loop& loop) {
     Processing::refine(mesh, patch, std::back_inserter(addedFaces), std::back_inserter(added));
     patch.insert(patch.end(), addedFaces.begin(), addedFaces.end());
     std::vector<std::pair<Mesh::Vertex_index, SurfaceKernel::Point_3>> before;
+    before.reserve(added.size());
     for (const Mesh::Vertex_index v : added) before.emplace_back(v, mesh.point(v));
     constexpr std::size_t kMostUnknowns = 20000;
     const unsigned continuity = loop.shape == Shape::Smooth ? 1 : 0;
@@ -184,6 +185,7 @@ void leaveSeams(const TriangleMesh& mesh, const std::vector<int>& component,
   constexpr std::size_t kMostComponents = 64; // more are a soup
   const double reach = kAlong * diagonalOf(mesh.vertices);
   std::vector<int> concerned;
+  concerned.reserve(loops.size());
   for (const Loop& loop : loops) concerned.push_back(loop.component);
   std::sort(concerned.begin(), concerned.end());
   concerned.erase(std::unique(concerned.begin(), concerned.end()), concerned.end());

@@ -54,7 +54,7 @@ struct Plane {
     x[u] = p.x();
     x[v] = p.y();
     return {x[0], x[1], x[2]};
-  }
+  } // NOLINT: the numbers count their references
 };
 
 class Cutter {
