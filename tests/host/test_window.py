@@ -115,9 +115,20 @@ class FilterTest(window.WindowTest):
         self.wait_for_log("Filter failed")
         self.assertEqual(self.layers(), ["refused"])
 
-    def test_a_hole(self):
+    def test_a_hole_is_closed(self):
         vertices, faces = cube()
-        self.refuse(vertices, faces[:-1], "The surface is open along 3 boundary edges", "Close Holes")
+        self.open(write_ply(self.folder / "holed.ply", vertices, faces[:-1]))
+        dialog = self.open_filter()
+        self.desktop.click(self.desktop.find(dialog, "push button", "Apply"))
+        self.wait_for_log("Applied filter " + FILTER)
+        self.desktop.click(self.desktop.find(dialog, "push button", "Close"))
+        self.assertEqual(self.layers(), ["holed", "holed outer offset surface",
+                                         "holed inner offset surface *"])
+
+    def test_a_vase(self):
+        vertices, faces = cube()
+        opened = faces[vertices[faces][:, :, 2].min(axis=1) < 9.9]  # without its top
+        self.refuse(vertices, opened, "1 opening is too large to be a hole", "open_surface")
 
     def test_points_without_faces(self):
         vertices, _ = cube()
