@@ -47,9 +47,17 @@ struct Mesh : vcg::tri::TriMesh<std::vector<Vertex>, std::vector<Face>> {};
 /// As the host opens it, equal vertices merged, with a longest side of 100.
 TriangleMesh readMesh(const std::string& path) {
   Mesh mesh;
-  int mask = 0;
-  if (vcg::tri::io::Importer<Mesh>::Open(mesh, path.c_str(), mask) != 0 && mesh.FN() == 0)
-    return {};
+  namespace io = vcg::tri::io;
+  if (path.size() > 4 && path.compare(path.size() - 4, 4, ".obj") == 0) {
+    io::ImporterOBJ<Mesh>::Info info;
+    if (!io::ImporterOBJ<Mesh>::LoadMask(path.c_str(), info)) return {};
+    // Faces whose textures or normals it has no place for would be left out.
+    info.mask = io::Mask::IOM_VERTCOORD | io::Mask::IOM_FACEINDEX;
+    io::ImporterOBJ<Mesh>::Open(mesh, path.c_str(), info);
+  } else {
+    int mask = 0;
+    io::Importer<Mesh>::Open(mesh, path.c_str(), mask);
+  }
   vcg::tri::Clean<Mesh>::RemoveDuplicateVertex(mesh);
   vcg::tri::Clean<Mesh>::RemoveUnreferencedVertex(mesh);
   if (mesh.VN() == 0) return {};
