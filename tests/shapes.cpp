@@ -326,6 +326,19 @@ TriangleMesh transformed(const TriangleMesh& mesh, const Mat3& linear, const Vec
   return displaced(mesh, [&](const Vec3& p) { return Vec3(linear * p + translation); });
 }
 
+TriangleMesh shifted(const TriangleMesh& mesh, const Vec3& by) {
+  return transformed(mesh, Mat3::Identity(), by);
+}
+
+TriangleMesh unwelded(const TriangleMesh& mesh) {
+  TriangleMesh result{Points(mesh.faces.size(), 3), mesh.faces};
+  for (Eigen::Index i = 0; i < mesh.faces.size(); ++i) {
+    result.vertices.row(i) = mesh.vertices.row(mesh.faces.data()[i]);
+    result.faces.data()[i] = static_cast<int>(i);
+  }
+  return result;
+}
+
 TriangleMesh scaled(const TriangleMesh& mesh, double factor) {
   return transformed(mesh, factor * Mat3::Identity());
 }

@@ -62,6 +62,12 @@ TriangleMesh smoothed(const TriangleMesh& mesh, int iterations);
 /// Every coordinate moved by at most `amplitude`, always in the same way for the same seed.
 TriangleMesh jittered(const TriangleMesh& mesh, double amplitude, std::uint32_t seed);
 
+/// x ↦ x + by.
+TriangleMesh shifted(const TriangleMesh& mesh, const Vec3& by);
+
+/// Every triangle with corners of its own.
+TriangleMesh unwelded(const TriangleMesh& mesh);
+
 /// x ↦ linear·x + translation. `linear` must keep the orientation.
 TriangleMesh transformed(const TriangleMesh& mesh, const Mat3& linear,
                          const Vec3& translation = Vec3::Zero());

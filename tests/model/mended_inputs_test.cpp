@@ -37,19 +37,6 @@ const Result& resultOfPillar() {
   return result;
 }
 
-TriangleMesh shifted(const TriangleMesh& mesh, const Vec3& shift) {
-  return transformed(mesh, Mat3::Identity(), shift);
-}
-
-TriangleMesh unwelded(const TriangleMesh& mesh) {
-  TriangleMesh result{Points(mesh.faces.size(), 3), mesh.faces};
-  for (Eigen::Index i = 0; i < mesh.faces.size(); ++i) {
-    result.vertices.row(i) = mesh.vertices.row(mesh.faces.data()[i]);
-    result.faces.data()[i] = static_cast<int>(i);
-  }
-  return result;
-}
-
 /// The cavity is as promised for the bodies `outer`.
 void expectGoodCavity(const Result& result, const TriangleMesh& outer) {
   ASSERT_GT(result.inner.faces.rows(), 0);

@@ -55,19 +55,6 @@ TriangleMesh withoutFaces(const TriangleMesh& mesh, const std::function<bool(con
   return submesh(mesh.vertices, result.faces.topRows(kept)).mesh;
 }
 
-TriangleMesh shifted(const TriangleMesh& mesh, const Vec3& by) {
-  return transformed(mesh, Mat3::Identity(), by);
-}
-
-TriangleMesh unwelded(const TriangleMesh& mesh) {
-  TriangleMesh result{Points(mesh.faces.size(), 3), mesh.faces};
-  for (Eigen::Index i = 0; i < mesh.faces.size(); ++i) {
-    result.vertices.row(i) = mesh.vertices.row(mesh.faces.data()[i]);
-    result.faces.data()[i] = static_cast<int>(i);
-  }
-  return result;
-}
-
 /// Vertices at the same place are one, whatever that makes of the surface.
 TriangleMesh withMergedPlaces(const TriangleMesh& mesh) {
   return mergedAndCompacted(unwelded(mesh)).mesh;

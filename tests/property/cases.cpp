@@ -386,16 +386,6 @@ TriangleMesh oneBody(Chance& chance, int kind, std::string& family) {
 
 // ---------------------------------------------------------------- disguises
 
-/// Every triangle with corners of its own.
-TriangleMesh unwelded(const TriangleMesh& mesh) {
-  TriangleMesh result{Points(mesh.faces.size(), 3), mesh.faces};
-  for (Eigen::Index i = 0; i < mesh.faces.size(); ++i) {
-    result.vertices.row(i) = mesh.vertices.row(mesh.faces.data()[i]);
-    result.faces.data()[i] = static_cast<int>(i);
-  }
-  return result;
-}
-
 TriangleMesh rounded(TriangleMesh mesh) {
   mesh.vertices = mesh.vertices.cast<float>().cast<double>();
   return mesh;
