@@ -766,6 +766,43 @@ TEST(Pipeline, GivesEveryVertexOfTheCavityItsOwnWall) {
   EXPECT_LE(number(result, "min_wall"), result.innerWall.minCoeff() + tolerance);
 }
 
+TEST(Pipeline, LeavesAWallAsThickEverywhereAsTheMassAsksFor) {
+  const double side = 20.0;
+  Options options;
+  options.goal = GoalKind::Mass;
+  options.cavityShape = CavityShape::BestPossible;
+  options.density = 1.0;
+  for (const double wall : {1.0, 3.0, 7.0}) {
+    const double hollow = std::pow(side - 2.0 * wall, 3);
+    options.targetMass = (std::pow(side, 3) - hollow) / 1000.0;
+    const Result result = optimizeMassProperties(box(Vec3::Constant(side), 6), options);
+    EXPECT_TRUE(std::get<bool>(result.report.at("solved")));
+    const double volume = -quadratureMoments(result.inner)[0];
+    EXPECT_NEAR(volume, hollow, 1e-6 * std::pow(side, 3));
+    // Nowhere thinner, and nowhere thicker but at the corners, which a ball does not fill.
+    EXPECT_NEAR(result.innerWall.minCoeff(), wall, 0.01 * wall);
+    EXPECT_NEAR(result.innerWall.mean(), wall, 0.03 * wall);
+  }
+}
+
+TEST(Pipeline, HasEveryMassBetweenTheLightestBodyAndTheSolidOne) {
+  Options options;
+  options.goal = GoalKind::Mass;
+  const TriangleMesh model = figure(2);
+  const Result lightest = optimizeMassProperties(model, options);
+  const double least = number(lightest, "mass_after");
+  const double solid = number(lightest, "mass_before");
+  for (const double share : {0.03, 0.5, 0.9, 0.98}) {
+    options.targetMass = least + share * (solid - least);
+    for (const CavityShape shape : {CavityShape::Automatic, CavityShape::BestPossible}) {
+      options.cavityShape = shape;
+      const Result result = optimizeMassProperties(model, options);
+      EXPECT_TRUE(std::get<bool>(result.report.at("solved"))) << share;
+      EXPECT_TRUE(std::get<bool>(result.report.at("weighs_target_limit"))) << share;
+    }
+  }
+}
+
 TEST(Pipeline, SaysThatThePrintMustBeDense) {
   EXPECT_EQ(text(resultOf(caseNamed("pillar")), "print_as").rfind("dense: 100 % infill", 0), 0U);
 }

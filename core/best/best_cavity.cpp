@@ -4,6 +4,7 @@
 #include "core/base/tolerances.h"
 #include "core/base/triangle.h"
 #include "core/best/polish.h"
+#include "core/best/uniform_wall.h"
 #include "core/contour/cavity_contour.h"
 #include "core/contour/wall_keeping.h"
 #include "core/optimum/admissible_cells.h"
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -210,6 +212,31 @@ CavityResult cavityOf(const CavityTask& task, const OpenedSet& deliverable) {
   return result;
 }
 
+/// Where a mass is all that is wanted: behind a wall as thick everywhere as that takes. Empty: more
+/// is wanted, or not to be had that way.
+std::optional<CavityResult> uniformlyWalled(const CavityTask& task, double edge) {
+  const std::optional<double> mass = task.goal.wantedMass();
+  const Filling& filling = task.model.fillings.front();
+  if (!mass || task.weights.constraints == 0.0 || filling.isPartial()) return {};
+  const double solid = task.model.solidMoments[0];
+  const double perVolume = 1.0 - filling.density; // what a cavity takes off
+  const double volume = (solid - *mass) / perVolume;
+  if (!(volume > 0.0)) return {};
+  const double tolerance = 0.1 * kFeasibility * solid / std::abs(perVolume);
+  const std::optional<TriangleMesh> cavity =
+      cavityOfVolume({task.surface, volume, tolerance, task.wall, edge,
+                      [&](const Points& points) { return delivered(task, points); }});
+  if (!cavity) return {};
+  CavityResult result = resultOf(task, *cavity);
+  const Stopwatch time;
+  result.inspection = inspect(result.inner, result.cavity.faces, task.surface, task.wall, false);
+  result.effort.secondsInspection = time.seconds();
+  result.effort.rounds = 1;
+  result.stopReason = "walls as thick everywhere as the mass asks for";
+  if (!result.inspection.isClean()) return {};
+  return result;
+}
+
 } // namespace
 
 OpenedSet deliverableSet(const TriangleTree& surface, double wall, const RegionParts& behindWall,
@@ -226,6 +253,10 @@ OpenedSet deliverableSet(const TriangleTree& surface, double wall, const RegionP
 
 CavityResult bestPossibleCavity(const CavityTask& task, const OpenedSet& deliverable) {
   const Stopwatch time;
+  if (std::optional<CavityResult> walled = uniformlyWalled(task, deliverable.edge)) {
+    walled->effort.secondsOptimization = time.seconds() - walled->effort.secondsInspection;
+    return std::move(*walled);
+  }
   CavityResult result = cavityOf(task, deliverable);
   const Body solid = inputBody(task);
   // What cubes lose goes with the square of their edge.

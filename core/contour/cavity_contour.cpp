@@ -94,7 +94,7 @@ Troubles troublesLeft(const TriangleTree& surface, double wall, Contour& contour
 std::optional<CavityContour> cavityContour(const OpenedSet& set,
                                            const std::optional<LayeredQuadric>& quadric) {
   if (!set.deep) return CavityContour{{}, set.edge};
-  const double leastVolume = std::pow(set.wall, 3);
+  const double leastVolume = std::pow(set.width, 3);
   const Region region{set.surface, set.wall, &*set.deep, quadric, set.edge};
   BorderLattice lattice = borderLattice(region, set.edge);
   // What the cubes are too large for becomes solid; first of what crosses it is tried without.

@@ -14,8 +14,6 @@ namespace {
 
 /// More than the wanted wall: what rounding takes.
 constexpr double kMargin = 1e-5;
-/// No ball of this radius fits into what is too narrow; in walls.
-constexpr double kNarrow = 0.5;
 /// How far from the middle of such a ball the cavity goes, in its radii: a cube's corner, too, is
 /// reached.
 constexpr double kReach = 1.8;
@@ -92,8 +90,12 @@ double edgeOfCubes(double area, double count) {
 }
 
 OpenedSet openedSet(const TriangleTree& surface, double wall, double edge) {
-  OpenedSet set{surface, (1.0 + kMargin) * wall, edge, {}};
-  const double narrow = kNarrow * wall;
+  return openedSet(surface, wall, wall, edge);
+}
+
+OpenedSet openedSet(const TriangleTree& surface, double wall, double width, double edge) {
+  OpenedSet set{surface, (1.0 + kMargin) * wall, width, edge, {}};
+  const double narrow = 0.5 * width;
   constexpr double kCoarser = 1.4; // nobody sees it
   const double deepEdge = kCoarser * edge;
   auto border = std::make_unique<const TriangleMesh>(

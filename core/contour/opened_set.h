@@ -8,11 +8,12 @@
 
 namespace massprops {
 
-/// The points at least `wall` behind the surface, opened by a ball as wide as the wall:
-/// docs/math.md "The best possible cavity". Working frame.
+/// The points at least `wall` behind the surface, opened by a ball, by default one as wide as the
+/// wall: docs/math.md "The best possible cavity". Working frame.
 struct OpenedSet {
   const TriangleTree& surface;  ///< closed, outward
   double wall;                  ///< a little more than the wanted one: what rounding takes
+  double width;                 ///< of the ball
   double edge;                  ///< of the cubes that its border is to be made with
   std::optional<DeepPart> deep; ///< empty: no such ball fits, there are no points
 };
@@ -22,6 +23,9 @@ double edgeOfCubes(double area, double count);
 
 /// The surface must outlive the set. `wall`, `edge` of the cubes: lengths.
 OpenedSet openedSet(const TriangleTree& surface, double wall, double edge);
+
+/// `width`: of the ball, a length.
+OpenedSet openedSet(const TriangleTree& surface, double wall, double width, double edge);
 
 /// What belongs to it of the cubes behind the walls; one more plane cuts those where the opening
 /// ends.

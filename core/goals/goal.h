@@ -72,6 +72,9 @@ public:
   /// The verdict as one number in a unit that people know, the greater the better; empty: it is
   /// more than one, or as good as the objective.
   virtual std::optional<double> measure(const Moments& massMoments) const;
+  /// The mass that is all that the goal wants, the material's density being 1; empty: it wants
+  /// more, or something else.
+  virtual std::optional<double> wantedMass() const { return std::nullopt; }
   /// What to pursue where the constraints cannot be kept; null: their least violation.
   virtual std::unique_ptr<Goal> insteadOfConstraints() const { return nullptr; }
   /// The same without constraints that part the bodies in two sets, which the best body often keeps

@@ -49,6 +49,8 @@ public:
     return -massMoments[0] / solidMass_;
   }
 
+  std::optional<double> wantedMass() const override { return target_; }
+
 private:
   double solidMass_;
   std::optional<double> target_;

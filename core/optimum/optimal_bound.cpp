@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <utility>
 
 namespace massprops {
@@ -187,6 +188,39 @@ std::vector<Moments> findBody(const Goal& goal, const Weights& weights, const Mo
   return states;
 }
 
+/// Hollow above a plane where a mass is all that is wanted and cells can have it: any body of it
+/// will do, and a local search may stop where nothing is hollow. The plane goes through the middle
+/// of the cell of which a part is hollow. No states where there is no such body.
+std::vector<Moments> takeBodyOfMass(const Goal& goal, const Weights& weights, const Moments& solid,
+                                    const Fillings& fillings, const AdmissibleCells& cells,
+                                    OptimalBound& bound) {
+  const std::optional<double> mass = goal.wantedMass();
+  if (!mass) return {};
+  const double volume = (solid[0] - *mass) / (1.0 - fillings.front().density);
+  if (!(volume > 0.0 && volume <= cells.col(0).sum())) return {};
+  const auto heightOf = [&](Eigen::Index c) { return cells(c, 3) / cells(c, 0); };
+  std::vector<Eigen::Index> fromAbove(static_cast<std::size_t>(cells.rows()));
+  std::iota(fromAbove.begin(), fromAbove.end(), Eigen::Index{0});
+  std::stable_sort(fromAbove.begin(), fromAbove.end(),
+                   [&](Eigen::Index a, Eigen::Index b) { return heightOf(a) > heightOf(b); });
+  Moments cavity = Moments::Zero();
+  double height = 1.0; // above everything
+  for (const Eigen::Index c : fromAbove) {
+    const double share = std::min((volume - cavity[0]) / cells(c, 0), 1.0);
+    if (share <= 0.0) break;
+    cavity += share * cells.row(c).transpose();
+    height = heightOf(c);
+  }
+  std::vector<Moments> states;
+  for (const Filling& filling : fillings) {
+    states.emplace_back(solid - (1.0 - filling.density) * cavity);
+  }
+  bound.massMoments = states.front();
+  bound.objective = momentObjective(goal, weights, states, 1.0 - cavity[0] / solid[0]);
+  bound.worth = LayeredQuadric::ofOneLayer(Moments::Unit(3) - height * Moments::Unit(0));
+  return states;
+}
+
 /// How low the objective can be about an axis; a body that is nearer to that, if there is one.
 void findLeastAboutAxis(const Goal& goal, const Weights& weights, const Moments& solid,
                         const Filling& filling, const AdmissibleCells& cells, OptimalBound& bound) {
@@ -253,8 +287,12 @@ void findBest(const Goal& goal, const Weights& weights, const Moments& solid,
     unconstrained.constraints = 0.0;
     bound.objective = momentObjective(goal, unconstrained, chosen(states, binding), 1.0);
   } else {
-    states = findBody(goal, weights, solid, chosen(fillings, bindingStates(fillings, nullptr)),
-                      cells, bound);
+    const Fillings whole = chosen(fillings, bindingStates(fillings, nullptr));
+    states = findBody(goal, weights, solid, whole, cells, bound);
+    if (largestViolation(goal, states) > OptimalBound::kReachable) {
+      std::vector<Moments> other = takeBodyOfMass(goal, weights, solid, whole, cells, bound);
+      if (!other.empty()) states = std::move(other);
+    }
   }
   if (weights.volume == 0.0) bound.measure = measure(goal, states);
   bound.violation = largestViolation(goal, states);
