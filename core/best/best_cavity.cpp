@@ -26,9 +26,21 @@ Points delivered(const CavityTask& task, const Points& working) {
   return task.deliverable ? task.deliverable(working) : working;
 }
 
-/// How far rounding may move a point.
-double roundingOf(const CavityTask& task, const Points& points) {
-  return points.rows() == 0 ? 0.0 : (delivered(task, points) - points).rowwise().norm().maxCoeff();
+/// The wall that a cavity is made with so that rounding leaves the wanted one: points between those
+/// of the surface, which are rounded already, tell how far points move.
+double wallBeforeRounding(const CavityTask& task) {
+  constexpr double kMore = 2.0; // than any of these
+  const Points& vertices = task.surface.vertices();
+  const Faces& faces = task.surface.faces();
+  constexpr Eigen::Index kSome = 1000;
+  const Eigen::Index step = faces.rows() / kSome + 1;
+  Points middles((faces.rows() + step - 1) / step, 3);
+  for (Eigen::Index i = 0; i < middles.rows(); ++i) {
+    const auto corners = faces.row(i * step);
+    middles.row(i) =
+        (vertices.row(corners[0]) + vertices.row(corners[1]) + vertices.row(corners[2])) / 3.0;
+  }
+  return task.wall + kMore * (delivered(task, middles) - middles).rowwise().norm().maxCoeff();
 }
 
 /// Not inspected.
@@ -177,13 +189,16 @@ bool leavesRoom(const TriangleTree& surface, double wall) {
 /// In cubes of the set's edge.
 CavityResult cavityOf(const CavityTask& task, const OpenedSet& deliverable) {
   const LayeredQuadric& quadric = task.bound->worth;
+  const double roomy = wallBeforeRounding(task);
   double wall = task.wall;
   CavityResult result;
   constexpr int kRounds = 3;
   for (int round = 1; round <= kRounds; ++round) {
+    if (deliverable.wall < roomy || round > 1) wall += roomy - task.wall;
     const std::optional<CavityContour> found =
-        round == 1 ? cavityContour(deliverable, quadric)
-                   : cavityContour(openedSet(task.surface, wall, deliverable.edge), quadric);
+        wall <= deliverable.wall
+            ? cavityContour(deliverable, quadric)
+            : cavityContour(openedSet(task.surface, wall, deliverable.edge), quadric);
     if (!found || found->contour.mesh.faces.rows() == 0) {
       result = {};
       // Where there is room the limit's body is the solid one.
@@ -195,8 +210,6 @@ CavityResult cavityOf(const CavityTask& task, const OpenedSet& deliverable) {
     result = polished(task, quadric, wall, *found);
     result.effort.rounds = round;
     if (result.inspection.isClean()) break;
-    // Rounding took too much.
-    wall += 2.0 * roundingOf(task, found->contour.mesh.vertices);
   }
   result.shape = CavityShape::BestPossible;
   if (result.status == CavityStatus::Found) {
@@ -224,7 +237,7 @@ std::optional<CavityResult> uniformlyWalled(const CavityTask& task, double edge)
   if (!(volume > 0.0)) return {};
   const double tolerance = 0.1 * kFeasibility * solid / std::abs(perVolume);
   const std::optional<TriangleMesh> cavity =
-      cavityOfVolume({task.surface, volume, tolerance, task.wall, edge,
+      cavityOfVolume({task.surface, volume, tolerance, wallBeforeRounding(task), edge,
                       [&](const Points& points) { return delivered(task, points); }});
   if (!cavity) return {};
   CavityResult result = resultOf(task, *cavity);

@@ -6,6 +6,7 @@
 #include "core/mesh/components.h"
 #include "core/mesh/decimation.h"
 #include "core/mesh/signed_volume.h"
+#include "core/mesh/vertex_adjacency.h"
 #include "core/query/self_intersection.h"
 
 #include <algorithm>
@@ -56,18 +57,44 @@ void putBackCrossing(const Points& before, Contour& contour) {
   }
 }
 
-/// Few triangles, none of them a sliver, on the border. `isCareful`: vertices stay where they would
-/// have to cross something on their way there, which takes time to find out.
-Contour smoothed(const Region& region, double edge, bool isCareful, Contour contour) {
+/// Few triangles, none of them a sliver, on the border but for vertices that would have to cross
+/// something on their way there.
+Contour smoothed(const Region& region, double edge, Contour contour) {
   const Points raw = contour.mesh.vertices;
   project(region, edge, contour);
-  if (isCareful) putBackCrossing(raw, contour);
+  putBackCrossing(raw, contour);
   constexpr double kSliver = 8.0; // degrees; a target that leaves room to what follows
   removeSlivers(kSliver, contour);
   constexpr double kFlat = 0.002; // walls
   contour = thinnedOut(contour, kFlat * region.wall);
   removeSlivers(kSliver, contour);
   return contour;
+}
+
+/// Moves the corners of faces that cross each other to the middle of their neighbours, where the
+/// walls allow it, until none do; the faces that still do. Where few cross that is quicker by far
+/// than to make the surface again.
+std::vector<int> untangle(const TriangleTree& surface, double wall, TriangleMesh& mesh) {
+  constexpr int kRounds = 4;
+  std::vector<int> crossing = selfIntersectingFaces(mesh.vertices, mesh.faces);
+  for (int round = 0; round < kRounds && !crossing.empty(); ++round) {
+    const VertexAdjacency neighbours = vertexAdjacency(mesh.vertices.rows(), mesh.faces);
+    const Points before = mesh.vertices;
+    for (const int f : crossing) {
+      for (const int v : mesh.faces.row(f)) {
+        Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+        const IndexRange around = neighbours[static_cast<std::size_t>(v)];
+        for (const int w : around) sum += before.row(w);
+        mesh.vertices.row(v) = sum / static_cast<double>(around.size());
+      }
+    }
+    if (!keepWall(surface, wall, mesh, &before).empty()) {
+      mesh.vertices = before;
+      break;
+    }
+    crossing = selfIntersectingFaces(mesh.vertices, mesh.faces);
+  }
+  return crossing;
 }
 
 /// Corners of triangles that come too near to the surface, and of those that cross each other.
@@ -82,7 +109,8 @@ Troubles troublesLeft(const TriangleTree& surface, double wall, Contour& contour
   Troubles troubles;
   for (const int v : keepWall(surface, wall, mesh))
     troubles.thin.emplace_back(mesh.vertices.row(v).transpose());
-  for (const int f : selfIntersectingFaces(mesh.vertices, mesh.faces)) {
+  if (!troubles.thin.empty()) return troubles;
+  for (const int f : untangle(surface, wall, mesh)) {
     for (const int v : mesh.faces.row(f))
       troubles.crossing.emplace_back(mesh.vertices.row(v).transpose());
   }
@@ -97,18 +125,16 @@ std::optional<CavityContour> cavityContour(const OpenedSet& set,
   const double leastVolume = std::pow(set.width, 3);
   const Region region{set.surface, set.wall, &*set.deep, quadric, set.edge};
   BorderLattice lattice = borderLattice(region, set.edge);
-  // What the cubes are too large for becomes solid; first of what crosses it is tried without.
-  bool isCareful = false;
+  // What the cubes are too large for becomes solid.
   constexpr int kRounds = 9;
   for (int round = 0; round < kRounds; ++round) {
     const Contour raw = withoutLooseParts(dualContour(lattice), leastVolume);
     if (raw.mesh.faces.rows() == 0) return CavityContour{{}, set.edge};
-    Contour contour = smoothed(region, set.edge, isCareful, raw);
+    Contour contour = smoothed(region, set.edge, raw);
     const Troubles troubles = troublesLeft(set.surface, set.wall, contour);
     if (troubles.areNone()) return CavityContour{std::move(contour), set.edge};
     takeOut(troubles.thin, lattice);
-    if (isCareful) takeOut(troubles.crossing, lattice);
-    isCareful = isCareful || !troubles.crossing.empty();
+    takeOut(troubles.crossing, lattice);
   }
   return {};
 }
