@@ -163,9 +163,17 @@ CavityResult polished(const CavityTask& task, const LayeredQuadric& quadric, dou
                    });
   // What passes at once serves better than what comes after it; what gave way may not.
   CavityResult* best = nullptr;
+  const Body solid = inputBody(task);
+  const auto isWorthInspecting = [&](const CavityResult& result) {
+    constexpr double kNoticeable = 1e-3; // of what is possible
+    const Body body = hollowBody(task, result);
+    const Body bestBody = hollowBody(task, *best);
+    if (bestBody.violation > kFeasibility) return servesBetter(task, body, bestBody);
+    return gapToBound(*task.bound, solid, bestBody) - gapToBound(*task.bound, solid, body) >
+           kNoticeable;
+  };
   for (Candidate& candidate : candidates) {
-    if (best != nullptr && best->inspection.isClean() &&
-        !servesBetter(task, candidate.result, *best))
+    if (best != nullptr && best->inspection.isClean() && !isWorthInspecting(candidate.result))
       continue;
     polishing.makePass(candidate);
     const bool isClean = candidate.result.inspection.isClean();
@@ -274,7 +282,7 @@ CavityResult bestPossibleCavity(const CavityTask& task, const OpenedSet& deliver
   const Body solid = inputBody(task);
   // What cubes lose goes with the square of their edge.
   constexpr int kTimes = 2;
-  constexpr double kEnough = 0.015; // of what is possible is left
+  constexpr double kEnough = 0.02; // of what is possible is left
   constexpr double kWanted = 0.01;
   double edge = deliverable.edge;
   for (int i = 0; i < kTimes; ++i) {
