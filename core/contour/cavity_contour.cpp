@@ -20,20 +20,12 @@ namespace {
 /// Without dust, and without material that would lie loose in the cavity.
 Contour withoutLooseParts(const Contour& contour, double leastVolume) {
   const Points& vertices = contour.mesh.vertices;
-  std::vector<Faces> kept;
-  Eigen::Index count = 0;
-  for (Faces& part : connectedComponents(vertices.rows(), contour.mesh.faces)) {
-    if (signedVolume(vertices, part) < leastVolume) continue;
-    count += part.rows();
-    kept.push_back(std::move(part));
-  }
-  Faces faces(count, 3);
-  Eigen::Index row = 0;
-  for (const Faces& part : kept) {
-    faces.middleRows(row, part.rows()) = part;
-    row += part.rows();
-  }
-  Submesh part = submesh(vertices, faces);
+  std::vector<Faces> kept = connectedComponents(vertices.rows(), contour.mesh.faces);
+  kept.erase(
+      std::remove_if(kept.begin(), kept.end(),
+                     [&](const Faces& part) { return signedVolume(vertices, part) < leastVolume; }),
+      kept.end());
+  Submesh part = submesh(vertices, joined(kept));
   return partOf(contour, std::move(part.mesh), part.vertexOf);
 }
 

@@ -90,6 +90,18 @@ std::vector<Submesh> componentMeshes(const Points& vertices, const Faces& faces)
   return result;
 }
 
+Faces joined(const std::vector<Faces>& parts) {
+  Eigen::Index rows = 0;
+  for (const Faces& part : parts) rows += part.rows();
+  Faces result(rows, 3);
+  rows = 0;
+  for (const Faces& part : parts) {
+    result.middleRows(rows, part.rows()) = part;
+    rows += part.rows();
+  }
+  return result;
+}
+
 TriangleMesh assembled(const std::vector<TriangleMesh>& parts) {
   Eigen::Index vertices = 0;
   Eigen::Index faces = 0;

@@ -28,6 +28,9 @@ Submesh submesh(const Points& vertices, const Faces& faces);
 /// take time linear in the mesh's size, however many they are.
 std::vector<Submesh> componentMeshes(const Points& vertices, const Faces& faces);
 
+/// All rows, one part after the other.
+Faces joined(const std::vector<Faces>& parts);
+
 /// All of them side by side in one, nothing merged.
 TriangleMesh assembled(const std::vector<TriangleMesh>& parts);
 

@@ -109,14 +109,7 @@ std::optional<TriangleMesh> replaced(const TriangleMesh& mesh, const std::vector
     if (filling.rows() == 0) return std::nullopt;
     pieces.emplace_back(filling.unaryExpr([&](int v) { return patch.vertexOf[at(v)]; }));
   }
-  Eigen::Index all = 0;
-  for (const Faces& piece : pieces) all += piece.rows();
-  Faces faces(all, 3);
-  all = 0;
-  for (const Faces& piece : pieces) {
-    faces.middleRows(all, piece.rows()) = piece;
-    all += piece.rows();
-  }
+  const Faces faces = joined(pieces);
   const EdgeCounts edges = countEdges(mesh.vertices.rows(), faces);
   if (edges.boundary + edges.nonManifold + edges.incoherent > 0) return std::nullopt;
   return TriangleMesh{mesh.vertices, faces};

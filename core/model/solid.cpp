@@ -183,18 +183,6 @@ std::vector<char> marksOf(const Submesh& part, const Faces& lids) {
   return marks;
 }
 
-Faces joined(const std::vector<Faces>& parts) {
-  Eigen::Index rows = 0;
-  for (const Faces& part : parts) rows += part.rows();
-  Faces result(rows, 3);
-  rows = 0;
-  for (const Faces& part : parts) {
-    result.middleRows(rows, part.rows()) = part;
-    rows += part.rows();
-  }
-  return result;
-}
-
 /// The input, mended and closed.
 struct ClosedSurface {
   RepairedMesh repaired;

@@ -20,18 +20,6 @@ TriangleMesh withoutLastFace(TriangleMesh mesh) {
   return mesh;
 }
 
-/// Every triangle with corners of its own, as STL files store them.
-TriangleMesh unwelded(const TriangleMesh& mesh) {
-  TriangleMesh result;
-  result.vertices.resize(mesh.faces.size(), 3);
-  result.faces.resize(mesh.faces.rows(), 3);
-  for (Eigen::Index i = 0; i < mesh.faces.size(); ++i) {
-    result.vertices.row(i) = mesh.vertices.row(mesh.faces.data()[i]);
-    result.faces.data()[i] = static_cast<int>(i);
-  }
-  return result;
-}
-
 /// Two tetrahedra that share `shared` vertices.
 TriangleMesh touchingTetrahedra(int shared) {
   const TriangleMesh a = tetrahedron({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
