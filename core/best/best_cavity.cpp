@@ -282,7 +282,7 @@ CavityResult bestPossibleCavity(const CavityTask& task, const OpenedSet& deliver
   const Body solid = inputBody(task);
   // What cubes lose goes with the square of their edge.
   constexpr int kTimes = 2;
-  constexpr double kEnough = 0.02; // of what is possible is left
+  constexpr double kEnough = 0.015; // of what is possible is left
   constexpr double kWanted = 0.01;
   double edge = deliverable.edge;
   for (int i = 0; i < kTimes; ++i) {
