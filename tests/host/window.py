@@ -105,7 +105,8 @@ class WindowTest(HostTest):
 
     def canvas(self):
         """Box of the 3D view."""
-        x, y, width, height = self.desktop.box(self.desktop.all(self.window, "split pane")[0])
+        panes = wait_for(lambda: self.desktop.all(self.window, "split pane"), "the 3D view")
+        x, y, width, height = self.desktop.box(panes[0])
         return x + 8, y + 8, width - 16, height - 16
 
     def eye(self, row):
