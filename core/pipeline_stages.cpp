@@ -33,6 +33,30 @@ PosedModel pose(const Solid& solid, const Options& options) {
   return result;
 }
 
+/// The outer surface, and how far from these triangles the body stays solid.
+TriangleTree surfaceOf(const PosedModel& posed, const TriangleTree* keptSolid,
+                       const Options& options) {
+  constexpr double kWalls = 4.0;
+  TriangleTree surface(posed.vertices, posed.open ? posed.open->skin : posed.faces,
+                       TriangleTree::Order::Spatial);
+  if (keptSolid == nullptr) return surface;
+  const double depth = options.solidDepth
+                           ? *options.solidDepth / posed.frame.length + roundOff(posed.frame)
+                           : kWalls * posed.wall;
+  if (depth > posed.wall) surface.keepOut(*keptSolid, depth - posed.wall);
+  return surface;
+}
+
+/// Least distances of the cavity, the strips of an open surface apart.
+double leastDistance(const PosedModel& posed, const CavityResult& cavity,
+                     const TriangleTree& other) {
+  const Eigen::Index n = cavity.inner.rows();
+  const Faces& faces = cavity.cavity.faces;
+  return ClearanceQuery(other)
+      .measure(cavity.inner, posed.open ? withoutStrips(faces, n / 2) : faces, 0.0)
+      .least;
+}
+
 /// How far offsets along the field may go for a wall to be kept.
 OffsetBounds boundsKeeping(double wall, const Preparation& model, const MovingSurface& moving,
                            const OffsetField& field, const Options& options) {
@@ -323,9 +347,12 @@ void proveOutOfReach(const Preparation& model, const Fillings& fillings, Search&
 Preparation::Preparation(const TriangleMesh& model, const Options& options, Resolution resolution,
                          const Repairs& mended)
     : solid(makeSolid(model, options.openSurface, rotationToUp(options.upAxis), mended)),
-      posed(pose(solid, options)),
-      surface(posed.vertices, posed.open ? posed.open->skin : posed.faces,
-              TriangleTree::Order::Spatial),
+      posed(pose(solid, options)), keptSolid{toWorking(posed.frame, options.keptSolid.vertices),
+                                             options.keptSolid.faces},
+      keptSolidTree(keptSolid.faces.rows() > 0
+                        ? std::make_unique<const TriangleTree>(keptSolid.vertices, keptSolid.faces)
+                        : nullptr),
+      surface(surfaceOf(posed, keptSolidTree.get(), options)),
       solidMoments(moments(posed.vertices, posed.faces)),
       goal(makeGoal(options, posed, posed.vertices)),
       isDecimated(resolution == Resolution::Coarse && !moves(options) && !posed.open),
@@ -442,6 +469,12 @@ Report report(const Preparation& model, const Foundation& foundation, const Sear
   const Coarsening& coarse = foundation.coarse;
   Stages stages;
   stages.repairs = model.solid.repairs();
+  if (model.keptSolidTree && found.cavity.status == CavityStatus::Found) {
+    const TriangleTree surface(model.posed.vertices, model.surface.faces(),
+                               TriangleTree::Order::Spatial);
+    stages.leastWall = leastDistance(model.posed, found.cavity, surface);
+    stages.solidDepth = leastDistance(model.posed, found.cavity, *model.keptSolidTree);
+  }
   stages.skeletonFailures = coarse.skeleton.failedComponents;
   stages.largestWall = found.largestWall;
   stages.shapeReason = found.shapeReason;

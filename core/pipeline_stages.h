@@ -61,7 +61,10 @@ struct Preparation {
   const Stopwatch time;
   const Solid solid;
   const PosedModel posed;
-  const TriangleTree surface; ///< the outer surface, working frame
+  const TriangleMesh keptSolid;                            ///< working frame
+  const std::unique_ptr<const TriangleTree> keptSolidTree; ///< null: there are none
+  /// The outer surface, working frame, which keeps out what lies too near to what stays solid.
+  const TriangleTree surface;
   const Moments solidMoments; ///< of the outer surface, working frame
   const std::unique_ptr<Goal> goal;
   const bool isDecimated;     ///< whether a copy moves inwards

@@ -51,6 +51,19 @@ TriangleMesh fromVcg(const VcgMesh& mesh, const Placement& placement) {
   return result;
 }
 
+/// The rows of `fromVcg`'s faces that are selected, ascending.
+template <class VcgMesh>
+std::vector<int> selectedFaces(const VcgMesh& mesh) {
+  std::vector<int> selected;
+  int row = 0;
+  for (const auto& face : mesh.face) {
+    if (face.IsD()) continue;
+    if (face.IsS()) selected.push_back(row);
+    ++row;
+  }
+  return selected;
+}
+
 /// Coordinates that a mesh with that scalar and placement stores for points of the world.
 template <class Scalar>
 Eigen::Matrix<Scalar, Eigen::Dynamic, 3, Eigen::RowMajor> stored(const Points& world,

@@ -1,5 +1,6 @@
 #include "filter_massprops/mass_properties_filter.h"
 
+#include "core/mesh/components.h"
 #include "core/pipeline.h"
 #include "core/vcg_conversion.h"
 #include "filter_massprops/dialog_size.h"
@@ -167,6 +168,16 @@ private:
   std::vector<const MeshModel*> pictures_;
   bool kept_ = false;
 };
+
+/// \throw InvalidInput when nothing is selected
+TriangleMesh selectedPart(const TriangleMesh& model, const std::vector<int>& faces) {
+  if (faces.empty()) {
+    throw InvalidInput("No face is selected: select those that shall stay solid, with the tool "
+                       "Select Faces in a rectangular region, say, or switch keep_selected_solid "
+                       "off.");
+  }
+  return submesh(model.vertices, model.faces(faces, Eigen::all)).mesh;
+}
 
 Progress reporterTo(vcg::CallBackPos* callback) {
   if (callback == nullptr) return {};
@@ -352,8 +363,12 @@ ReturnedValues MassPropertiesFilter::optimize(MeshDocument& document,
     return representable<Scalarm>(world, placement);
   };
 
-  const Result result =
-      optimizeMassProperties(fromVcg(input->cm, placement), options, reporterTo(callback));
+  const TriangleMesh model = fromVcg(input->cm, placement);
+  if (parameters.getBool("keep_selected_solid")) {
+    options.keptSolid = selectedPart(model, selectedFaces(input->cm));
+  }
+
+  const Result result = optimizeMassProperties(model, options, reporterTo(callback));
 
   NewLayers layers(document, *input);
   if (result.outer) layers.add(*result.outer, "outer offset surface");

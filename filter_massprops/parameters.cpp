@@ -175,6 +175,12 @@ RichParameterList dialogParameters(double diagonal) {
                          "overlapping bodies and wraps what is left, in a copy: the outer surface "
                          "as it was mended is a layer of its own. Otherwise such a model is "
                          "refused."));
+  list.addParam(RichBool("keep_selected_solid", false, "Keep selected faces solid",
+                         "No point of the cavity comes nearer to a selected face than solid_depth: "
+                         "around screw holes and joints, say."));
+  addLength("solid_depth", 0.0, "Solid depth [mm]",
+            "How far from the selected faces all stays solid, in model units or percent of the "
+            "diagonal; only with keep_selected_solid. 0: four times the minimum wall.");
   list.addParam(RichBool("show_layers", defaults.showAnswer, "Show the answer (more layers)",
                          "Adds a layer with the model cut open along the vertical plane through "
                          "its centre of mass, one with the centre of mass before (red) and "
@@ -216,6 +222,7 @@ Options optionsFrom(const RichParameterList& parameters) {
   options.tippingAngle = number(parameters, "tipping_angle");
   options.openSurface = parameters.getBool("open_surface");
   options.mend = parameters.getBool("mend");
+  options.solidDepth = unlessZero(length(parameters, "solid_depth"));
   options.showAnswer = parameters.getBool("show_layers");
   return options;
 }

@@ -785,6 +785,74 @@ TEST(Pipeline, LeavesAWallAsThickEverywhereAsTheMassAsksFor) {
   }
 }
 
+TriangleMesh upperFaces(const TriangleMesh& mesh, double height) {
+  Faces upper(mesh.faces.rows(), 3);
+  Eigen::Index rows = 0;
+  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
+    const auto corners = mesh.faces.row(f);
+    const bool isUpper = std::all_of(corners.begin(), corners.end(),
+                                     [&](int v) { return mesh.vertices(v, 2) >= height; });
+    if (isUpper) upper.row(rows++) = corners;
+  }
+  return {mesh.vertices, upper.topRows(rows)};
+}
+
+TEST(Pipeline, KeepsAPlateUnderSelectedFacesSolid) {
+  const double side = 20.0;
+  const double wall = 1.0;
+  const TriangleMesh model = box(Vec3::Constant(side), 8);
+  Options options;
+  options.goal = GoalKind::Mass;
+  options.innerLowerBound = wall;
+  options.keptSolid = upperFaces(model, model.vertices.col(2).maxCoeff());
+  ASSERT_EQ(options.keptSolid.faces.rows(), 128);
+  for (const std::optional<double>& depth : {std::optional<double>(), std::optional(6.5)}) {
+    options.solidDepth = depth;
+    const double solid = depth.value_or(4.0 * wall);
+    const double inside = side - 2.0 * wall;
+    const double hollow = inside * inside * (side - wall - solid);
+    for (const CavityShape shape : {CavityShape::Offset, CavityShape::BestPossible}) {
+      options.cavityShape = shape;
+      const Result result = optimizeMassProperties(model, options);
+      ASSERT_GT(result.inner.vertices.rows(), 0);
+      const double top = result.inner.vertices.col(2).maxCoeff();
+      EXPECT_LE(top, model.vertices.col(2).maxCoeff() - solid);
+      EXPECT_NEAR(number(result, "solid_depth"), model.vertices.col(2).maxCoeff() - top, 1e-9);
+      EXPECT_GE(number(result, "min_wall"), wall);
+      EXPECT_LT(number(result, "min_wall"), 1.01 * wall);
+      const double share = -quadratureMoments(result.inner)[0] / hollow;
+      EXPECT_LE(share, 1.0);
+      // The opening rounds the corners; an offset surface leaves more.
+      EXPECT_GE(share, shape == CavityShape::BestPossible ? 0.985 : 0.7);
+    }
+  }
+}
+
+TEST(Pipeline, KeepsEveryCavityAwayFromSelectedFaces) {
+  Options options;
+  for (const GoalKind goal : {GoalKind::Stand, GoalKind::Spin, GoalKind::Mass}) {
+    options.goal = goal;
+    for (const CavityShape shape : {CavityShape::Offset, CavityShape::BestPossible}) {
+      options.cavityShape = shape;
+      const TriangleMesh model = figure(2);
+      const double size = diagonal(model);
+      options.keptSolid = upperFaces(model, 0.7 * model.vertices.col(2).maxCoeff());
+      ASSERT_GT(options.keptSolid.faces.rows(), 10);
+      options.solidDepth = 0.07 * size;
+      const Result result = optimizeMassProperties(model, options);
+      ASSERT_GT(result.inner.faces.rows(), 0);
+      const double apart = separation(result.inner, options.keptSolid).least;
+      EXPECT_GE(apart, *options.solidDepth * (1.0 - 1e-9));
+      EXPECT_NEAR(number(result, "solid_depth"), apart, 1e-7 * size);
+      EXPECT_LT(number(result, "min_wall"), 0.02 * size);
+      options.keptSolid = {};
+      const Result free = optimizeMassProperties(model, options);
+      EXPECT_GE(std::abs(quadratureMoments(free.inner)[0]),
+                std::abs(quadratureMoments(result.inner)[0]));
+    }
+  }
+}
+
 TEST(Pipeline, HasEveryMassBetweenTheLightestBodyAndTheSolidOne) {
   Options options;
   options.goal = GoalKind::Mass;

@@ -37,6 +37,9 @@ std::string outlook(const CavityTask& task, const Verdict& verdict, bool isProve
   if (task.bound->outOfReach && isProved) {
     return " No cavity of any shape that keeps this wall can reach it.";
   }
+  const std::string keeps = task.surface.keepsOut() && !isProved
+                                ? "keeps this wall and the solid depth"
+                                : "keeps this wall";
   if (task.bound->isReachable()) {
     if (verdict.isReached(task.bound->massMoments)) {
       return " A cavity of another shape could reach it.";
@@ -46,9 +49,8 @@ std::string outlook(const CavityTask& task, const Verdict& verdict, bool isProve
                : " No cavity of any other shape was found to reach it.";
   }
   const LevelBound* best = task.bound->bestLevel();
-  return std::string(isProved ? " No cavity of any shape that keeps this wall can reach it: "
-                              : " No cavity of any shape that keeps this wall was found to reach "
-                                "it: ") +
+  return " No cavity of any shape that " + keeps +
+         (isProved ? " can reach it: " : " was found to reach it: ") +
          verdict.bestInWords(best != nullptr ? best->states
                                              : std::vector<Moments>{task.bound->massMomentsInAll}) +
          ".";
@@ -67,7 +69,10 @@ std::string message(const CavityTask& task, const Verdicts& verdicts, const Cavi
   if (cavity.status == CavityStatus::NoRoom) {
     return sentence + bySolid +
            (task.open != nullptr ? "; there is no room for an open shell with this wall: "
-                                 : "; nothing can be hollowed at this wall: ") +
+            : task.surface.keepsOut()
+                ? "; nothing can be hollowed at this wall and solid depth: select fewer faces, or "
+                  "lower solid_depth; without these, "
+                : "; nothing can be hollowed at this wall: ") +
            (largestWall > 0.0
                 ? "lower inner_lower_bound to " + toString(largestWall) + " or less."
                 : "lower inner_lower_bound, and refine the model with Remeshing > Isotropic "
@@ -242,7 +247,11 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Ve
     report.add("wall_error_at_most", stages.margins->wall * posed.frame.length);
     report.add("residue_at_most", stages.margins->residue * options.density * unitVolume / 1000.0);
   }
-  report.add("min_wall", hasCavity ? cavity.inspection.leastWall * posed.frame.length : 0.0);
+  const double leastWall = stages.leastWall.value_or(cavity.inspection.leastWall);
+  report.add("min_wall", hasCavity ? leastWall * posed.frame.length : 0.0);
+  if (hasCavity && stages.solidDepth) {
+    report.add("solid_depth", *stages.solidDepth * posed.frame.length);
+  }
   report.add("cavity_components", hollow ? cavity.inspection.components : 0);
   if (cavity.status == CavityStatus::NoRoom) {
     report.add("largest_wall", stages.largestWall * posed.frame.length);

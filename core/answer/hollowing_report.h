@@ -20,6 +20,9 @@ struct Stages {
   Repairs repairs;          ///< of the input
   int skeletonFailures = 0; ///< components on which the mean curvature flow failed
   std::string shapeReason;  ///< why the cavity has the shape that it has
+  /// Least working distances of the cavity from the outer surface and from what stays solid; empty
+  /// where nothing must, and the inspection knows the first.
+  std::optional<double> leastWall, solidDepth;
   double largestWall = 0.0; ///< working length; of use when there is no room for a cavity
   std::optional<PrintMargins> margins; ///< where the goal is reached
   /// Of all the goal's conditions, where it is missed and that no cavity can reach it was proved.

@@ -74,6 +74,11 @@ void requireSensible(const Options& options, Eigen::Index vertexCount, double di
           "outer_lower_bound is greater than outer_upper_bound: swap them.");
   require(options.outerUpperBound <= 0.5 * diagonal,
           "outer_upper_bound is more than half of the model's diagonal: lower it.");
+  require(!options.solidDepth || (finite(*options.solidDepth) && *options.solidDepth > 0.0),
+          "solid_depth must be a length, or 0 for four walls.");
+  require(options.keptSolid.faces.rows() == 0 || options.outerUpperBound == 0.0,
+          "Selected faces stay solid only where the outer surface stays where it is: set "
+          "outer_lower_bound and outer_upper_bound to 0, or switch keep_selected_solid off.");
   const Weights& w = options.weights;
   for (const double weight :
        {w.volume, w.centerOfMass, w.inertia, w.smoothness, w.constraints, w.outer}) {

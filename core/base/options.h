@@ -75,6 +75,10 @@ struct Options {
   double waterDensity = 1.0; ///< Float: g/cm³
   double targetMass = 0.0;   ///< Mass: g; 0 is as light as possible
   double tippingAngle = 0.0; ///< Stand: wanted, degrees; 0 is as large as possible
+  /// Triangles, in model coordinates, that no point of the cavity comes nearer to than
+  /// `solidDepth`: around screw holes and joints, say. Often none.
+  TriangleMesh keptSolid;
+  std::optional<double> solidDepth; ///< length; empty: four walls
   /// Whether a surface with boundary loops is taken as one side of a shell; otherwise it is
   /// refused.
   bool openSurface = false;

@@ -26,8 +26,8 @@ double depthHolding(const VolumeTask& task) {
   forChunks(cells.rows(), kRun, [&](const Chunk& chunk) {
     for (Eigen::Index c = chunk.begin; c < chunk.end; ++c) {
       const Vec3 middle = cells.block<1, 3>(c, 1).transpose() / cells(c, 0);
-      parts[static_cast<std::size_t>(c)] = {std::sqrt(task.surface.nearest(middle).squaredDistance),
-                                            cells(c, 0)};
+      parts[static_cast<std::size_t>(c)] = {
+          std::sqrt(task.surface.clearance(middle).squaredDistance), cells(c, 0)};
     }
   });
   std::sort(parts.begin(), parts.end(),

@@ -82,11 +82,12 @@ Sample InsetProbe::at(const Vec3& x, double horizon) {
   const double exact = (deep != nullptr ? deep->depth : region_.wall) + horizon;
   nearest_ = region_.surface.nearest(x, std::numeric_limits<double>::infinity(), nearest_.face,
                                      exact * exact);
-  const double distance = std::sqrt(nearest_.squaredDistance);
-  last_ = {x, distance, isInside(x)};
+  last_ = {x, std::sqrt(nearest_.squaredDistance), isInside(x)};
+  const TriangleTree::Hit clear = region_.surface.clearance(x, nearest_);
+  const double distance = std::sqrt(clear.squaredDistance);
   const double sign = last_.isInside ? 1.0 : -1.0;
   const double depth = sign * distance;
-  Sample inset{depth - region_.wall, sign * (x - nearest_.point) / std::max(distance, kTiny)};
+  Sample inset{depth - region_.wall, sign * (x - clear.point) / std::max(distance, kTiny)};
   if (deep == nullptr || depth >= deep->depth || inset.value <= -horizon) return inset;
   const double farthest = deep->reach + horizon;
   nearestDeep_ = deep->border.nearest(x, farthest * farthest, nearestDeep_.face);

@@ -44,7 +44,8 @@ private:
 
   double shortfall(Eigen::Index f, const Points& vertices) const {
     const auto corner = [&](int k) { return Vec3(vertices.row(faces_(f, k)).transpose()); };
-    const double squared = surface_.squaredDistance(corner(0), corner(1), corner(2), wall_ * wall_);
+    const double squared =
+        surface_.squaredClearance(corner(0), corner(1), corner(2), wall_ * wall_);
     return std::max(wall_ - std::sqrt(squared), 0.0);
   }
 
@@ -76,7 +77,7 @@ std::vector<int> keepWall(const TriangleTree& surface, double wall, TriangleMesh
     const Points normals = vertexNormals(cavity.vertices, cavity.faces);
     for (const int v : thin) {
       const Vec3 x = cavity.vertices.row(v).transpose();
-      const Vec3 away = (x - surface.nearest(x).point).normalized();
+      const Vec3 away = (x - surface.clearance(x).point).normalized();
       const Vec3 inwards = -normals.row(v).transpose();
       // Where a face bulges, away from its corner's nearest point is not away from the face's.
       targets.row(v) += ((kMore + kGrowth * round) * missing[v] + kLeast * wall) *

@@ -71,9 +71,11 @@ private:
     // Farther away the surface does not matter.
     const double far =
         isSideKnown && ball.isInside ? wall_ + half : std::numeric_limits<double>::infinity();
-    TriangleTree::Hit nearest;
-    if (ball.radius < far) nearest = surface_.nearest(centre, far * far, near.face);
-    if (nearest.face < 0) {
+    TriangleTree::Hit onSurface;
+    onSurface.squaredDistance = far * far;
+    if (ball.radius < far) onSurface = surface_.nearest(centre, far * far, near.face);
+    const TriangleTree::Hit nearest = surface_.clearance(centre, onSurface);
+    if (!(nearest.squaredDistance < far * far)) {
       known_.push_back({centre, far, true});
       parts_.push_back({centre, far, Vec3::UnitX(), level, cell});
       return;
@@ -82,7 +84,7 @@ private:
     if (ball.radius <= wall_ - half) return;
     // Asked only where it tells the side of all parts: their middles are half as far as corners.
     if (isSideKnown || ball.radius > 0.5 * half || level == 0) {
-      if (!isSideKnown) ball.isInside = PointInMesh(surface_).contains(centre, nearest);
+      if (!isSideKnown) ball.isInside = PointInMesh(surface_).contains(centre, onSurface);
       known_.push_back(ball);
       if (!ball.isInside && ball.radius >= nothing) return;
     }

@@ -170,9 +170,9 @@ private:
   }
 
   double distanceOf(Eigen::Index f, double squaredBound) const {
-    return other_.squaredDistance(x_.row(faces_(f, 0)).transpose(),
-                                  x_.row(faces_(f, 1)).transpose(),
-                                  x_.row(faces_(f, 2)).transpose(), squaredBound);
+    return other_.squaredClearance(x_.row(faces_(f, 0)).transpose(),
+                                   x_.row(faces_(f, 1)).transpose(),
+                                   x_.row(faces_(f, 2)).transpose(), squaredBound);
   }
 
   /// At y = Σλ_i y_i the other surface is at least d away, d² ≥ Σλ_i d_i² − Σλ_i|y_i − y|²: a point
@@ -219,8 +219,9 @@ private:
 
   /// Returns the nearest face.
   int searchNearest(Eigen::Index v, double squaredExact, int hint) {
+    const Vec3 x = x_.row(v).transpose();
     const TriangleTree::Hit hit =
-        other_.nearest(x_.row(v).transpose(), kInfinity, hint, squaredExact);
+        other_.clearance(x, other_.nearest(x, kInfinity, hint, squaredExact));
     const double distance = std::sqrt(hit.squaredDistance);
     squared_[v] = hit.squaredDistance;
     vertexBounds_[v] = hit.squaredDistance > squaredExact

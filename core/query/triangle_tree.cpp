@@ -13,6 +13,8 @@ namespace {
 
 constexpr Eigen::Index kChunk = 4096;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Of what is kept out: none at all would be a crossing's.
+constexpr double kLeastClearance = 1e-12;
 
 /// Leaves of a tree over so many triangles: the least power of two that leaves four for each.
 Eigen::Index leafCount(Eigen::Index triangles) {
@@ -415,6 +417,33 @@ double TriangleTree::squaredDistance(const Vec3& a, const Vec3& b, const Vec3& c
   visitWithin(
       box, [&] { return least; }, visit);
   return least;
+}
+
+void TriangleTree::keepOut(const TriangleTree& triangles, double radius) {
+  keptOut_ = &triangles;
+  keptOutRadius_ = radius;
+}
+
+TriangleTree::Hit TriangleTree::clearance(const Vec3& p, const Hit& nearest) const {
+  if (keptOut_ == nullptr) return nearest;
+  const double reach = std::sqrt(nearest.squaredDistance) + keptOutRadius_;
+  const Hit core = keptOut_->nearest(p, reach * reach);
+  if (core.face < 0) return nearest;
+  const double fromCore = std::sqrt(core.squaredDistance);
+  const double distance = std::max(fromCore - keptOutRadius_, kLeastClearance);
+  const Vec3 away = (p - core.point) / std::max(fromCore, kLeastClearance);
+  return {distance * distance, nearest.face, p - distance * away};
+}
+
+double TriangleTree::squaredClearance(const Vec3& a, const Vec3& b, const Vec3& c,
+                                      double squaredBound) const {
+  const double least = squaredDistance(a, b, c, squaredBound);
+  if (keptOut_ == nullptr || least == 0.0) return least;
+  const double reach = std::sqrt(least) + keptOutRadius_;
+  const double fromCore = keptOut_->squaredDistance(a, b, c, reach * reach);
+  if (fromCore >= reach * reach) return least;
+  const double clear = std::max(std::sqrt(fromCore) - keptOutRadius_, kLeastClearance);
+  return std::min(least, clear * clear);
 }
 
 double TriangleTree::firstHit(const Vec3& start, const Vec3& direction, double limit) const {

@@ -55,6 +55,22 @@ public:
   /// Squared distance of a point from one face.
   double squaredDistance(const Vec3& p, int face) const;
 
+  /// From then on clearances are those from all within `radius` of these other triangles, too,
+  /// which must outlive the tree. Distances stay those from the surface.
+  void keepOut(const TriangleTree& triangles, double radius);
+  bool keepsOut() const { return keptOut_ != nullptr; }
+
+  /// What is nearest to `p` of the surface, which is what `nearest` found with any bound, and of
+  /// what is kept out, whose points are 1e-12 away from themselves. The face is that of `nearest`.
+  Hit clearance(const Vec3& p, const Hit& nearest) const;
+  /// The same as `nearest`, of both.
+  Hit clearance(const Vec3& p,
+                double squaredBound = std::numeric_limits<double>::infinity()) const {
+    return clearance(p, nearest(p, squaredBound));
+  }
+  /// As the squared distance of a triangle, of both; 0 only where it crosses the surface.
+  double squaredClearance(const Vec3& a, const Vec3& b, const Vec3& c, double squaredBound) const;
+
   /// Squared distance, to a billionth, of the triangle (a, b, c) from the surface if below
   /// `squaredBound`, else that; 0 where they cross.
   double squaredDistance(const Vec3& a, const Vec3& b, const Vec3& c, double squaredBound) const;
@@ -116,7 +132,9 @@ private:
   std::vector<FourBoxes> boxes_;
   int roots_ = 1; ///< where a walk begins, for it to end at the leaves: node 1, or nodes 2 and 3
   std::vector<TrianglePacket> triangles_; ///< of the leaves
-  Box box_;                               ///< around all
+  const TriangleTree* keptOut_ = nullptr; ///< not this alone, but all within a radius of it
+  double keptOutRadius_ = 0.0;
+  Box box_; ///< around all
   /// More than the boxes lose as floats; what far points lose is a share of the gap, as are the
   /// roundings of its square.
   float rounding_ = 0.0F;

@@ -78,6 +78,19 @@ void markWithin(const CavityTask& task, const VertexAdjacency& neighbours, int v
   }
 }
 
+/// Of what the cavity keeps the wall from, to one of its vertices that is too near.
+Vec3 nearestPoint(const CavityTask& task, const CavityResult& result, int v) {
+  const Vec3 y = result.inner.row(v).transpose();
+  const int face = result.inspection.nearestFace[static_cast<std::size_t>(v)];
+  const auto corners = task.surface.faces().row(face);
+  const Vec3 a = result.outer.row(corners[0]).transpose();
+  const Vec3 b = result.outer.row(corners[1]).transpose();
+  const Vec3 c = result.outer.row(corners[2]).transpose();
+  const Vec3 weights = nearestWeights(y, a, b, c);
+  const Vec3 onFace = weights[0] * a + weights[1] * b + weights[2] * c;
+  return task.surface.clearance(y, {(y - onFace).squaredNorm(), face, onFace}).point;
+}
+
 /// Moves the bounds so that what the inspection found cannot happen again in the same way.
 /// `thinRounds`: how often each vertex had too thin a wall.
 void tighten(const CavityTask& task, const CavityResult& result, const VertexAdjacency& neighbours,
@@ -107,15 +120,9 @@ void tighten(const CavityTask& task, const CavityResult& result, const VertexAdj
     if (atCap) markWithin(task, neighbours, v, kRetreat * task.wall, solid);
   }
   for (const int v : result.inspection.thin) {
-    // Does going deeper lead away from the nearest point of the outer surface?
+    // Does going deeper lead away from the nearest point?
     const Vec3 y = result.inner.row(v).transpose();
-    const auto nearest =
-        task.surface.faces().row(result.inspection.nearestFace[static_cast<std::size_t>(v)]);
-    const Vec3 a = result.outer.row(nearest[0]).transpose();
-    const Vec3 b = result.outer.row(nearest[1]).transpose();
-    const Vec3 c = result.outer.row(nearest[2]).transpose();
-    const Vec3 weights = nearestWeights(y, a, b, c);
-    const Vec3 away = (y - (weights[0] * a + weights[1] * b + weights[2] * c)).normalized();
+    const Vec3 away = (y - nearestPoint(task, result, v)).normalized();
     const double missing = kBeyondWall * task.wall - result.inspection.wall[v];
     const double gain = -away.dot(task.model.field.directions.row(v).transpose());
     int& failures = thinRounds[static_cast<std::size_t>(v)];

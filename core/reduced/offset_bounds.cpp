@@ -40,10 +40,11 @@ OffsetBounds keepingWall(const Points& vertices, const TriangleTree& surface,
       for (int step = 0; step < kMostSteps && offset <= bounds.upper[v]; ++step) {
         // The distance grows by at most the step, so that no step goes too far.
         const Vec3 y = (vertices.row(v) - offset * field.directions.row(v)).transpose();
-        const TriangleTree::Hit hit = surface.nearest(y, wall * wall, hint);
-        if (hit.face < 0) break;
-        hint = hit.face;
-        offset += kBeyondWall * wall - std::sqrt(hit.squaredDistance);
+        const TriangleTree::Hit nearest = surface.nearest(y, wall * wall, hint);
+        const double clear = std::sqrt(surface.clearance(y, nearest).squaredDistance);
+        if (clear >= wall) break;
+        hint = nearest.face;
+        offset += kBeyondWall * wall - clear;
       }
     }
   });

@@ -114,6 +114,29 @@ class ParametersTest(HostTest):
 
         self.assertGreater(depth(far), 1.3 * depth(near))
 
+    def test_selected_faces_stay_solid_to_a_depth(self):
+        select = ('<filter name="Conditional Face Selection"><Param type="RichString" '
+                  'name="condSelect" value="(z0 &gt; 10)"/></filter>')
+        points, faces = self.outer
+        upper = faces[points[faces[:, 0], 2] > 10]
+        self.assertGreater(len(upper), 20)
+        free, cavity = self.top()
+        self.assertNotIn("solid_depth", free)
+        reached = measure.surface_distance((points, upper), cavity)
+        for depth, least in ((5, 5), (0, 4 * 1.5)):
+            script = changed_script(SPIN, self.folder / "select.mlx", keep_selected_solid="true",
+                                    inner_lower_bound=1.5, solid_depth=depth)
+            text = script.read_text()
+            place = text.index("<filter ")
+            script.write_text(text[:place] + select + text[place:])
+            status, log = meshlabserver("-i", TOP, "-o", self.folder / "c.ply", "-s", script)
+            self.assertEqual(status, 0, log)
+            cavity = read_ply(self.folder / "c.ply")
+            apart = measure.surface_distance((points, upper), cavity)
+            self.assertGreaterEqual(apart, least - 1e-5)
+            self.assertAlmostEqual(report_in(log)["solid_depth"], apart, delta=1e-5)
+            self.assertLess(reached, apart)
+
     def test_outer_bounds_are_the_range_of_the_displacement(self):
         _, (moved, faces), _ = self.both_surfaces(outer_lower_bound=0.3, outer_upper_bound=0.9)
         np.testing.assert_array_equal(faces, self.outer[1])

@@ -177,6 +177,10 @@ class RefusalsTest(HostTest):
         self.refuse(cube(), "target_mass", goal=mass, target_mass=-1)
         self.refuse(cube(), "pivot lies", goal=hang, use_pivot="true", pivot_x=1e6)
 
+    def test_what_stays_solid(self):
+        self.refuse(cube(), "No face is selected", keep_selected_solid="true")
+        self.refuse(cube(), "solid_depth", solid_depth=-1, basis_k=8)
+
     def test_entries_that_do_not_exist(self):
         self.refuse(cube(), "'goal' is entry 9", goal=9)
         self.refuse(cube(), "'up_axis' is entry -1", up_axis=-1)

@@ -66,6 +66,7 @@ TriangleMesh cylinder(double radius, double height, int segments) {
   const int rings = std::max(2, int(std::lround(radius / edge)));
   const int floors = std::max(2, int(std::lround(height / edge)));
   std::vector<Vec2> profile;
+  profile.reserve(static_cast<std::size_t>(2 * rings + floors + 1));
   for (int i = 0; i < rings; ++i) profile.emplace_back(radius * i / rings, height);
   for (int i = 0; i <= floors; ++i) profile.emplace_back(radius, height - height * i / floors);
   for (int i = rings - 1; i >= 0; --i) profile.emplace_back(radius * i / rings, 0.0);
@@ -311,6 +312,26 @@ TEST(OpenSurface, AVaseThatLeansStandsAsAShell) {
       << std::get<std::string>(run.result.report.at("message"));
   EXPECT_EQ(std::get<int>(run.result.report.at("openings")), 1);
   EXPECT_EQ(eulerCharacteristic(run.shell), 2);
+}
+
+TEST(OpenSurface, AVaseHasABaseAsThickAsWanted) {
+  const TriangleMesh vase = leaningVase();
+  Options options;
+  options.goal = GoalKind::Mass;
+  options.innerLowerBound = 1.0;
+  const double low = vase.vertices.col(2).minCoeff();
+  const double high = vase.vertices.col(2).maxCoeff();
+  options.keptSolid = where(vase, [&](const Vec3& p) { return p.z() < low + 0.02 * (high - low); });
+  ASSERT_GT(options.keptSolid.faces.rows(), 10);
+  options.solidDepth = 0.15 * (high - low);
+  const OpenRun run = runOn(vase, options);
+  expectShell(run, 1.0);
+  const TriangleMesh inside =
+      where(run.result.inner, [&](const Vec3& p) { return p.z() < 0.5 * (low + high); });
+  ASSERT_GT(inside.faces.rows(), 10);
+  // The skin is stored in single precision.
+  EXPECT_GE(leastDistance(inside, options.keptSolid), *options.solidDepth - 1e-5);
+  EXPECT_LT(leastDistance(inside, options.keptSolid), *options.solidDepth * 1.05);
 }
 
 TEST(OpenSurface, ATubeWithTwoOpeningsIsALoop) {

@@ -57,6 +57,41 @@ INSTANTIATE_TEST_SUITE_P(
                       std::pair(1e-25, Vec3(0, 0, 0)), std::pair(1e-21, Vec3(0, 0, 0)),
                       std::pair(1.0, Vec3(1e5, -3e6, 0)), std::pair(1e-3, Vec3(0, 0, 1e5))));
 
+TEST(Clearance, IsThatOfTheSurfaceAndOfAllWithinARadiusOfWhatIsKeptOut) {
+  const TriangleMesh ball = sphere(6);
+  const TriangleMesh patch{ball.vertices, ball.faces.topRows(20)};
+  const TriangleTree kept(patch.vertices, patch.faces);
+  const TriangleTree plain(ball.vertices, ball.faces);
+  TriangleTree tree(ball.vertices, ball.faces);
+  const double radius = 0.4;
+  tree.keepOut(kept, radius);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> place(-1.2, 1.2);
+  int keptOut = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 p(place(random), place(random), place(random));
+    const double fromKept = std::sqrt(kept.nearest(p).squaredDistance) - radius;
+    const double expected =
+        std::min(std::sqrt(plain.nearest(p).squaredDistance), std::max(fromKept, 0.0));
+    const TriangleTree::Hit hit = tree.clearance(p);
+    EXPECT_NEAR(std::sqrt(hit.squaredDistance), expected, 1e-11);
+    EXPECT_NEAR((p - hit.point).norm(), expected, 1e-11);
+    EXPECT_EQ(tree.nearest(p).squaredDistance, plain.nearest(p).squaredDistance);
+    if (fromKept <= 0.0) ++keptOut;
+
+    const Vec3 q = p + 0.1 * Vec3(place(random), place(random), place(random));
+    const Vec3 r = p + 0.1 * Vec3(place(random), place(random), place(random));
+    constexpr double kFar = 100.0;
+    const double whole = std::sqrt(tree.squaredClearance(p, q, r, kFar));
+    const double ofKept = std::sqrt(kept.squaredDistance(p, q, r, kFar)) - radius;
+    EXPECT_NEAR(whole,
+                std::min(std::sqrt(plain.squaredDistance(p, q, r, kFar)), std::max(ofKept, 0.0)),
+                1e-8);
+  }
+  EXPECT_GT(keptOut, 10);
+  EXPECT_LT(keptOut, 200);
+}
+
 /// How many triangles a search for those that meet each triangle's box looks at.
 std::int64_t visits(const TriangleMesh& mesh, TriangleTree::Order order) {
   const TriangleTree tree(mesh.vertices, mesh.faces, order, TriangleTree::Queries::NoDistances);
