@@ -45,8 +45,10 @@ endif()
 
 if(EXISTS ${_tree}/src/common/parameters/rich_parameter/rich_percentage.h)
   set(_percentage RichPercentage)
+  set(_file RichFileSave)
 else()
   set(_percentage RichAbsPerc)
+  set(_file RichSaveFile)
 endif()
 
 file(STRINGS ${_tree}/ML_VERSION _version LIMIT_COUNT 1)
@@ -71,7 +73,8 @@ target_include_directories(MeshLab::plugin SYSTEM INTERFACE ${_tree}/src)
 target_compile_definitions(
   MeshLab::plugin
   INTERFACE MESHLAB_SCALAR=${MESHLAB_SCALAR} MESHLAB_VERSION=${_version}
-            MASSPROPS_MESHLAB_API=${_api} MASSPROPS_MESHLAB_PERCENTAGE=${_percentage})
+            MASSPROPS_MESHLAB_API=${_api} MASSPROPS_MESHLAB_PERCENTAGE=${_percentage}
+            MASSPROPS_MESHLAB_FILE=${_file})
 get_target_property(_glew GLEW::GLEW INTERFACE_INCLUDE_DIRECTORIES)
 target_include_directories(MeshLab::plugin SYSTEM INTERFACE ${_glew})
 target_link_libraries(MeshLab::plugin INTERFACE vcglib Qt5::Core Qt5::Widgets Qt5::OpenGL Qt5::Xml)

@@ -19,6 +19,8 @@ namespace massprops {
 
 /// Absolute length or percentage of a range; stored as an absolute length.
 using RichLength = MASSPROPS_MESHLAB_PERCENTAGE;
+/// A file to write to.
+using RichFile = MASSPROPS_MESHLAB_FILE;
 using ReturnedValues = std::map<std::string, QVariant>;
 
 #if MASSPROPS_MESHLAB_API >= 2022

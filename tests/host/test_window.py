@@ -83,7 +83,7 @@ class FilterTest(window.WindowTest):
         self.open(self.dinosaur()[1])
         dialog = self.open_filter()
         self.choose(dialog, "Up axis", "+Y")
-        self.desktop.click(self.desktop.find(dialog, "check box", "Show the answer (more layers)"))
+        self.desktop.click(self.scroll_to(dialog, "Show the answer (more layers)"))
         self.desktop.click(self.desktop.find(dialog, "push button", "Apply"))
         self.wait_for_log("Applied filter " + FILTER)
         self.desktop.click(self.desktop.find(dialog, "push button", "Close"))

@@ -21,7 +21,7 @@ def parameters(diagonal):
 class WindowTest(HostTest):
     """MeshLab on a screen of its own."""
 
-    SCREEN = (1400, 1200)
+    SCREEN = (1400, 1700)
     WINDOW = (1300, 950)
 
     @classmethod
@@ -91,7 +91,45 @@ class WindowTest(HostTest):
             return None
         return wait_for(beside, f"the {role} beside '{label.name}'")
 
+    @staticmethod
+    def inside(box, frame):
+        x, y, width, height = box
+        left, top, right, bottom = frame
+        return left <= x and top <= y and x + width <= right and y + height <= bottom
+
+    def scrolled_part(self, dialog):
+        """Left, top, right and bottom of the part of the dialog that scrolls; None where all has room."""
+        bar = next((w for w in self.desktop.all(dialog, "scroll bar") if self.desktop.shown(w)), None)
+        if bar is None:
+            return None
+        right, top, _, height = self.desktop.box(bar)
+        return self.desktop.box(dialog)[0], top, right, top + height
+
+    def scroll_to(self, dialog, label):
+        """Turns the mouse wheel above the fields until a parameter can be read; returns its label or
+        check box."""
+        widget = next(w for role in ("label", "check box")
+                      for w in self.desktop.all(dialog, role)
+                      if w.name.removesuffix(" (abs and %)") == label)
+        frame = self.scrolled_part(dialog)
+        if frame is None:
+            return widget
+        left, top, right, bottom = frame
+
+        def readable():
+            e = widget.queryComponent().getExtents(self.desktop.atspi.DESKTOP_COORDS)
+            if self.inside((e.x, e.y, e.width, e.height), frame):
+                return True
+            # Over the fields, some of which would take the wheel for a new value.
+            self.desktop.mouse(left + (right - left) * 2 // 3, (top + bottom) // 2, "click",
+                               4 if e.y < top else 5)
+            return False
+
+        wait_for(readable, f"'{label}' to be scrolled into view", 20)
+        return widget
+
     def choose(self, dialog, label, entry):
+        self.scroll_to(dialog, label)
         box = self.field_beside(dialog, self.desktop.find(dialog, "label", label), "combo box")
         self.desktop.click(box)
         self.desktop.click(self.desktop.find(box, "list item", entry))
