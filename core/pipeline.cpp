@@ -11,12 +11,17 @@ namespace massprops {
 namespace {
 
 /// \throw DefectiveSurface when the model is no solid
-Result hollowed(const TriangleMesh& model, const Repairs& mended, const Options& options,
+Result hollowed(const TriangleMesh& model, const Known& known, const Options& options,
                 ProgressBar& bar) {
   // A solid that stands upright on its contact area, diagonal 1, and what it is to do.
-  const Preparation prepared = prepare(model, options, bar, Resolution::Coarse, mended);
+  const Preparation prepared = prepare(model, options, bar, Resolution::Coarse, known);
   // What moves inwards, its skeleton and harmonics; the best that any cavity could do.
   const Foundation foundation = coarsen(prepared, options, bar);
+  // The foot was cut as little as it takes to stand at all: deeper, where that lets a cavity reach
+  // the goal.
+  if (const auto depth = depthOfBetterFoot(prepared, foundation, options)) {
+    return hollowed(model, {known.mended, depth}, options, bar);
+  }
   // Offsets that serve the goal best, within bounds that close in until nothing crosses; where they
   // fall short, what lies behind the walls on one side of the best quadric.
   const Search found = search(prepared, foundation, options, bar);
@@ -38,7 +43,7 @@ Result hollowedOrMended(const TriangleMesh& model, const Options& options, Progr
   }
   const RepairedMesh solid = mend(model, options, bar);
   try {
-    return hollowed(solid.mesh, solid.repairs, options, bar);
+    return hollowed(solid.mesh, {solid.repairs, {}}, options, bar);
   } catch (const DefectiveSurface&) {
     throw DefectiveSurface(defect); // of the given model, which the user knows
   }

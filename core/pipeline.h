@@ -21,9 +21,9 @@ struct Result {
   TriangleMesh inner;
   /// Distance of every vertex of `inner` from the outer surface.
   Vector innerWall;
-  /// The outer surface when it is not the input's: mended, moved, for `Options::outerUpperBound` >
-  /// 0, without the cavities that the input had already, or with components flipped that faced the
-  /// wrong way.
+  /// The outer surface when it is not the input's: mended, cut flat for a foot, moved, for
+  /// `Options::outerUpperBound` > 0, without the cavities that the input had already, or with
+  /// components flipped that faced the wrong way.
   std::optional<TriangleMesh> outer;
   /// For `Options::showAnswer`, where there is a cavity or a moved outer surface.
   std::optional<Picture> picture;

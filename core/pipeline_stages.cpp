@@ -9,6 +9,7 @@
 #include "core/goals/registry.h"
 #include "core/model/frame.h"
 #include "core/model/mending.h"
+#include "core/optimum/foot_depth.h"
 #include "core/reduced/hollow_body.h"
 #include "core/reduced/search_strategy.h"
 
@@ -25,10 +26,15 @@ bool moves(const Options& options) {
   return options.outerUpperBound > 0.0;
 }
 
-PosedModel pose(const Solid& solid, const Options& options) {
+/// The checked model, and what it stands on.
+Footing stand(Solid solid, const Options& options, const std::optional<double>& depth) {
   requireSensible(options, solid.vertices().rows(), solid.diagonal());
   requireEnoughFunctions(options);
-  PosedModel result = makePosedModel(solid, options);
+  return onFoot(std::move(solid), options, depth);
+}
+
+PosedModel pose(const Footing& footing, const Options& options) {
+  PosedModel result = makePosedModel(footing.solid, options, footing.foot);
   if (result.open) requireSensibleForShell(options);
   return result;
 }
@@ -345,10 +351,13 @@ void proveOutOfReach(const Preparation& model, const Fillings& fillings, Search&
 } // namespace
 
 Preparation::Preparation(const TriangleMesh& model, const Options& options, Resolution resolution,
-                         const Repairs& mended)
-    : solid(makeSolid(model, options.openSurface, rotationToUp(options.upAxis), mended)),
-      posed(pose(solid, options)), keptSolid{toWorking(posed.frame, options.keptSolid.vertices),
-                                             options.keptSolid.faces},
+                         const Known& known)
+    : footing(
+          stand(makeSolid(model, options.openSurface, rotationToUp(options.upAxis), known.mended),
+                options, known.footDepth)),
+      solid(footing.solid),
+      posed(pose(footing, options)), keptSolid{toWorking(posed.frame, options.keptSolid.vertices),
+                                               options.keptSolid.faces},
       keptSolidTree(keptSolid.faces.rows() > 0
                         ? std::make_unique<const TriangleTree>(keptSolid.vertices, keptSolid.faces)
                         : nullptr),
@@ -360,9 +369,9 @@ Preparation::Preparation(const TriangleMesh& model, const Options& options, Reso
       schedule(scheduleFor(posed.vertices.rows(), options.basisSize, isDecimated)) {}
 
 Preparation prepare(const TriangleMesh& model, const Options& options, ProgressBar& bar,
-                    Resolution resolution, const Repairs& mended) {
+                    Resolution resolution, const Known& known) {
   bar.show(0, "Checking the model");
-  return {model, options, resolution, mended};
+  return {model, options, resolution, known};
 }
 
 RepairedMesh mend(const TriangleMesh& model, const Options& options, ProgressBar& bar) {
@@ -418,6 +427,19 @@ Foundation coarsen(const Preparation& model, const Options& options, ProgressBar
     throw;
   }
   return result;
+}
+
+std::optional<double> depthOfBetterFoot(const Preparation& model, const Foundation& foundation,
+                                        const Options& options) {
+  if (!model.footing.lowest || moves(options) || model.posed.open) return {};
+  if (foundation.possible && isAmple(reserveOf(foundation.possible->bound))) return {};
+  AdmissibleCells cells(0, 10);
+  Fillings states = fillingsSeenBy(options);
+  if (foundation.possible) {
+    cells = cellsOf(resolvedParts(model.surface, model.posed.wall));
+    states = foundation.possible->states;
+  }
+  return betterFootDepth(*model.footing.lowest, model.posed, cells, states, options);
 }
 
 Search search(const Preparation& model, const Foundation& foundation, const Options& options,

@@ -7,6 +7,7 @@
 #include "core/contour/opened_set.h"
 #include "core/goals/goal.h"
 #include "core/goals/verdict.h"
+#include "core/model/foot.h"
 #include "core/model/posed_model.h"
 #include "core/model/solid.h"
 #include "core/optimum/certificate.h"
@@ -50,16 +51,23 @@ private:
 /// allow; or the whole surface, slow, which the copies are measured against.
 enum class Resolution { Coarse, Full };
 
+/// What is known of the model from before.
+struct Known {
+  Repairs mended = {};                  ///< done already
+  std::optional<double> footDepth = {}; ///< found to be better than the least
+};
+
 /// The model, checked and put upright, and what follows from it alone. Neither copied nor moved,
 /// for its parts refer to each other.
 struct Preparation {
   Preparation(const TriangleMesh& model, const Options& options, Resolution resolution,
-              const Repairs& mended);
+              const Known& known);
   Preparation(const Preparation&) = delete;
   Preparation& operator=(const Preparation&) = delete;
 
   const Stopwatch time;
-  const Solid solid;
+  const Footing footing; ///< with a foot, if it needs one
+  const Solid& solid;
   const PosedModel posed;
   const TriangleMesh keptSolid;                            ///< working frame
   const std::unique_ptr<const TriangleTree> keptSolidTree; ///< null: there are none
@@ -73,10 +81,9 @@ struct Preparation {
   const double seconds = time.seconds(); ///< all of this took
 };
 
-/// `mended`: what was done to the model already.
 /// \throw DefectiveSurface when the model is no solid; InvalidInput when an option is absurd
 Preparation prepare(const TriangleMesh& model, const Options& options, ProgressBar& bar,
-                    Resolution resolution = Resolution::Coarse, const Repairs& mended = {});
+                    Resolution resolution = Resolution::Coarse, const Known& known = {});
 
 /// The model as a solid, as far as that can be done.
 /// \throw InvalidInput where it has an opening that is no defect
@@ -100,6 +107,11 @@ struct Foundation {
 
 /// \throw DefectiveSurface when the model crosses itself
 Foundation coarsen(const Preparation& model, const Options& options, ProgressBar& bar);
+
+/// Where no cavity reaches the goal on the foot as it was cut: the depth of one on which a cavity
+/// does, or comes nearer to it. Empty: that foot is as good as any, or there is none.
+std::optional<double> depthOfBetterFoot(const Preparation& model, const Foundation& foundation,
+                                        const Options& options);
 
 /// What was asked for, and the best answer.
 struct Search {

@@ -15,21 +15,11 @@ Vector wallOf(const CavityTask& task, const CavityResult& cavity) {
                           : wallAtVertices(cavity.inner, task.surface);
 }
 
-Faces facesWithoutLids(const Solid& solid) {
-  if (solid.isLid().empty()) return solid.faces();
-  Faces faces(solid.faces().rows(), 3);
-  Eigen::Index kept = 0;
-  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
-    if (solid.isLid()[static_cast<std::size_t>(f)] == 0) faces.row(kept++) = solid.faces().row(f);
-  }
-  return faces.topRows(kept);
-}
-
 /// Whether the input and the cavity bound the material together.
-bool inputServes(const Solid& solid, const CavityTask& task) {
+bool inputServes(const Solid& solid, const PosedModel& posed, const CavityTask& task) {
   const Repairs& repairs = solid.repairs();
-  return !task.model.outer && repairs.replacedCavities == 0 && repairs.flippedComponents == 0 &&
-         repairs.mended.empty();
+  return !task.model.outer && !posed.foot && repairs.replacedCavities == 0 &&
+         repairs.flippedComponents == 0 && repairs.mended.empty();
 }
 
 void deliverOffsetSurface(const Solid& solid, const PosedModel& posed, const CavityTask& task,
@@ -56,7 +46,13 @@ Delivery deliver(const Solid& solid, const PosedModel& posed, const CavityTask& 
                  const CavityResult& cavity, const std::vector<int>& vertexOf,
                  const std::function<Points(const Points&)>& representable) {
   Delivery result;
-  if (cavity.status != CavityStatus::Found) return result;
+  if (cavity.status != CavityStatus::Found) {
+    // What stands is the body with its foot, hollow or not.
+    if (posed.foot) {
+      result.outer = assembled({submesh(solid.vertices(), solid.skin()).mesh, solid.cavities()});
+    }
+    return result;
+  }
   if (cavity.shape == CavityShape::Offset) {
     deliverOffsetSurface(solid, posed, task, cavity, vertexOf, representable, result);
   } else {
@@ -64,11 +60,11 @@ Delivery deliver(const Solid& solid, const PosedModel& posed, const CavityTask& 
     result.innerWall = wallOf(task, cavity) * posed.frame.length;
   }
   flip(result.inner.faces);
-  if (inputServes(solid, task)) return result;
+  if (inputServes(solid, posed, task)) return result;
   const Points outer =
       task.model.outer ? representable(toModel(posed.frame, placed(cavity.outer, posed.vertexOf)))
                        : solid.vertices();
-  result.outer = submesh(outer, facesWithoutLids(solid)).mesh;
+  result.outer = submesh(outer, solid.skin()).mesh;
   return result;
 }
 

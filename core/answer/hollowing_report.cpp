@@ -105,6 +105,41 @@ std::string remark(const Verdict& verdict, const Moments& massMoments) {
   return words.empty() ? "" : " " + words;
 }
 
+/// What the model was cut flat for, after a space.
+std::string footInWords(const PosedModel& posed, bool isSolved) {
+  if (!posed.foot) return "";
+  const double circle = inradius(posed.contact);
+  std::string words = " The model has been cut flat, " + toString(posed.foot->depth) +
+                      " above its lowest point, and stands on this foot: the outer surface comes "
+                      "as a layer of its own.";
+  if (circle < kFootInradius) {
+    words += " The foot holds a circle of radius " + toString(circle * posed.frame.length) +
+             " only, less than 1 % of the diagonal.";
+  }
+  if (!isSolved) words += " On a deeper one (foot, foot_depth) it may stand better.";
+  return words;
+}
+
+/// Of the goals that ask for a contact area.
+void addContact(const PosedModel& posed, const Options& options, Report& report) {
+  if (!standsOnContacts(options.goal)) return;
+  report.add("foot_depth", posed.foot ? posed.foot->depth : 0.0);
+  report.add("contact_area", sizeOf(posed.contact) * posed.frame.length * posed.frame.length);
+  report.add("contact_inradius", inradius(posed.contact) * posed.frame.length);
+}
+
+/// What a person should know about a model of such a size; "" where it is a usual one.
+std::string unitsInWords(double diagonal) {
+  constexpr double kSmall = 5.0;
+  constexpr double kLarge = 2000.0;
+  if (diagonal >= kSmall && diagonal <= kLarge) return "";
+  return "Lengths are read as millimetres, and the model's diagonal is " + toString(diagonal) +
+         (diagonal < kSmall ? ": if it is in inches scale it by 25.4, if in metres by 1000"
+                            : ": if it is in micrometres scale it by 0.001, and if it is larger "
+                              "than its print will be, to the print's size") +
+         ", for grams and lengths to be those of the print.";
+}
+
 /// In words, and as numbers for hosts that take no text from a filter.
 void addRepairs(const Repairs& repairs, Report& report) {
   report.add("repairs", repairs.describe());
@@ -218,12 +253,15 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Ve
 
   Report report;
   report.add("goal", goalNames()[static_cast<std::size_t>(options.goal)]);
-  report.add("solved", after.violation <= kFeasibility && verdicts.after.isReached(after.mass));
+  const bool isSolved = after.violation <= kFeasibility && verdicts.after.isReached(after.mass);
+  report.add("solved", isSolved);
   report.add("message",
              (stages.repairs.warning.empty() ? "" : stages.repairs.warning + " ") +
                  message(task, verdicts, cavity, before, after,
                          stages.largestWall * posed.frame.length, !stages.certificates.empty()) +
-                 remark(verdicts.after, after.mass));
+                 remark(verdicts.after, after.mass) + footInWords(posed, isSolved));
+  const std::string units = unitsInWords(posed.frame.length);
+  if (!units.empty()) report.add("units", units);
   report.add("objective_before", before.objective);
   report.add("objective_after", after.objective);
   report.add("max_constraint_violation", after.violation);
@@ -237,6 +275,7 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Ve
   report.add("inertia_tensor_after", modelAfter.inertiaTensor);
   verdicts.before.describe(before.mass, "before", report);
   verdicts.after.describe(after.mass, "after", report);
+  addContact(posed, options, report);
   if (task.bound) {
     addLimit(task, verdicts, before, after, report);
     addCertificates(posed.frame, stages, report);

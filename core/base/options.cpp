@@ -35,6 +35,10 @@ void requireSensibleWishes(const Options& options) {
           "water_density must be greater than 0 g/cm³; fresh water has 1.");
   require(finite(options.targetMass) && options.targetMass >= 0.0,
           "target_mass must be 0 (as light as possible) or a mass in grams.");
+  require(
+      options.foot != FootCut::Given || (finite(options.footDepth) && options.footDepth > 0.0),
+      "foot is Given: foot_depth must be a length greater than 0, how much of the model's lowest "
+      "part is cut off; or set foot to Automatic.");
   require(options.tippingAngle >= 0.0 && options.tippingAngle < 90.0,
           "tipping_angle must be 0 (as hard to tip over as possible) or an angle below 90 degrees; "
           "10 suits most models.");

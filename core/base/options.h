@@ -28,6 +28,13 @@ enum class CavityShape {
   BestPossible, ///< what lies behind the walls on one side of a quadric
 };
 
+/// Whether the model is cut flat a little above its lowest point, in the order of the dialog.
+enum class FootCut {
+  Automatic, ///< where it has too little to stand on
+  Never,
+  Given, ///< by `footDepth`
+};
+
 /// In the order of the dialog.
 enum class UpAxis { PlusZ, PlusY, PlusX, MinusZ, MinusY, MinusX };
 
@@ -75,6 +82,9 @@ struct Options {
   double waterDensity = 1.0; ///< Float: g/cm³
   double targetMass = 0.0;   ///< Mass: g; 0 is as light as possible
   double tippingAngle = 0.0; ///< Stand: wanted, degrees; 0 is as large as possible
+  /// Stand, Stand (published), Stand empty and filled, and only without radii (model/foot.h).
+  FootCut foot = FootCut::Automatic;
+  double footDepth = 0.0; ///< length, only where the foot is `Given`
   /// Triangles, in model coordinates, that no point of the cavity comes nearer to than
   /// `solidDepth`: around screw holes and joints, say. Often none.
   TriangleMesh keptSolid;
@@ -90,6 +100,12 @@ struct Options {
   /// and reported is the rounded surface. Empty: double precision.
   std::function<Points(const Points&)> representable;
 };
+
+/// Whether the goal is one of standing on the model's contact area.
+inline bool standsOnContacts(GoalKind goal) {
+  return goal == GoalKind::Stand || goal == GoalKind::PublishedStand ||
+         goal == GoalKind::StandEmptyAndFilled;
+}
 
 /// \throw InvalidInput when an option is absurd in itself or for a model of that size
 void requireSensible(const Options& options, Eigen::Index vertexCount, double diagonal);

@@ -15,4 +15,8 @@ constexpr double kDefaultWall = 0.01;
 /// what hangs, at the highest one.
 constexpr double kContactHeight = 1e-4;
 
+/// What a model stands on holds a circle of this radius where it is cut flat for that, and whoever
+/// stands on that much needs no cut.
+constexpr double kFootInradius = 0.01;
+
 } // namespace massprops

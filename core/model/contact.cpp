@@ -42,6 +42,22 @@ Vec2 centroid(const std::vector<Vec2>& polygon) {
   return base + sum / twice;
 }
 
+/// What of a convex polygon is at least that far to the left of the line; `along`: unit.
+std::vector<Vec2> leftOf(const std::vector<Vec2>& polygon, const Vec2& start, const Vec2& along,
+                         double distance) {
+  const auto excess = [&](const Vec2& p) { return cross(along, p - start) - distance; };
+  std::vector<Vec2> rest;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2& a = polygon[i];
+    const Vec2& b = polygon[(i + 1) % polygon.size()];
+    const double atA = excess(a);
+    const double atB = excess(b);
+    if (atA >= 0.0) rest.push_back(a);
+    if ((atA < 0.0) != (atB < 0.0)) rest.emplace_back(a + atA / (atA - atB) * (b - a));
+  }
+  return rest;
+}
+
 /// Inside of the polygon the normal of the edge whose line is nearest, outside the direction from
 /// the nearest point.
 Vec2 weakestDirection(const std::vector<Vec2>& polygon, const Vec2& c) {
@@ -107,15 +123,7 @@ std::vector<Vec2> convexHull(const std::vector<Vec2>& points) {
   return result;
 }
 
-GroundContact groundContact(const Points& upright, const std::optional<Vec2>& radii) {
-  const double ground = upright.col(2).minCoeff();
-  const double diagonal = (upright.colwise().maxCoeff() - upright.colwise().minCoeff()).norm();
-  std::vector<Vec2> touching;
-  for (Eigen::Index v = 0; v < upright.rows(); ++v) {
-    if (upright(v, 2) <= ground + kContactHeight * diagonal) {
-      touching.emplace_back(upright(v, 0), upright(v, 1));
-    }
-  }
+GroundContact contactOf(const std::vector<Vec2>& touching, double ground, double diagonal) {
   std::vector<Vec2> hull = convexHull(touching);
   const double smallestArea = std::pow(kContactHeight * diagonal, 2);
   const bool flat = hull.size() >= 3 && signedArea(hull) > smallestArea;
@@ -131,6 +139,20 @@ GroundContact groundContact(const Points& upright, const std::optional<Vec2>& ra
     for (Vec2& corner : hull) corner -= centre;
     contact.area.polygon = std::move(hull);
   }
+  return contact;
+}
+
+GroundContact groundContact(const Points& upright, const std::optional<Vec2>& radii,
+                            const std::optional<double>& height) {
+  const double ground = upright.col(2).minCoeff();
+  const double diagonal = (upright.colwise().maxCoeff() - upright.colwise().minCoeff()).norm();
+  std::vector<Vec2> touching;
+  for (Eigen::Index v = 0; v < upright.rows(); ++v) {
+    if (upright(v, 2) <= ground + height.value_or(kContactHeight * diagonal)) {
+      touching.emplace_back(upright(v, 0), upright(v, 1));
+    }
+  }
+  GroundContact contact = contactOf(touching, ground, diagonal);
   contact.area.radii = radii;
   return contact;
 }
@@ -138,9 +160,9 @@ GroundContact groundContact(const Points& upright, const std::optional<Vec2>& ra
 void requireArea(const ContactArea& area) {
   if (!area.polygon.empty() || area.radii) return;
   throw InvalidInput("The model touches the ground only in a point or along a line, so it has "
-                     "nothing to stand on: turn it upright, cut a flat foot (Compute Planar "
-                     "Section), choose another up_axis, or set radius_x and radius_y to the "
-                     "size of its contact area, then run again.");
+                     "nothing to stand on: turn it upright, choose another up_axis, cut it flat by "
+                     "foot and foot_depth, or set radius_x and radius_y to the size of its "
+                     "contact area, then run again.");
 }
 
 ContactArea scaled(const ContactArea& area, double length) {
@@ -148,6 +170,36 @@ ContactArea scaled(const ContactArea& area, double length) {
   for (Vec2& corner : result.polygon) corner /= length;
   if (result.radii) *result.radii /= length;
   return result;
+}
+
+double sizeOf(const ContactArea& area) {
+  if (area.radii) return kPi * area.radii->prod();
+  return area.polygon.empty() ? 0.0 : signedArea(area.polygon);
+}
+
+double inradius(const ContactArea& area) {
+  if (area.radii) return area.radii->minCoeff();
+  if (area.polygon.empty()) return 0.0;
+  // No circle within is of a larger size.
+  double low = 0.0;
+  double high = std::sqrt(sizeOf(area) / kPi) * (1.0 + 1e-9);
+  constexpr int kHalvings = 50;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (holdsCircle(area, middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+bool holdsCircle(const ContactArea& area, double radius) {
+  if (area.radii) return area.radii->minCoeff() >= radius;
+  const std::vector<Vec2>& polygon = area.polygon;
+  std::vector<Vec2> centres = polygon;
+  for (std::size_t i = 0; i < polygon.size() && !centres.empty(); ++i) {
+    const Vec2 edge = polygon[(i + 1) % polygon.size()] - polygon[i];
+    centres = leftOf(centres, polygon[i], edge / edge.norm(), radius);
+  }
+  return !centres.empty();
 }
 
 double extent(const ContactArea& area, const Vec2& u) {

@@ -26,16 +26,30 @@ struct GroundContact {
 /// Corners of the convex hull, counterclockwise, without those on its sides.
 std::vector<Vec2> convexHull(const std::vector<Vec2>& points);
 
-/// All vertices within 1e-4 of the diagonal above the lowest one touch the ground.
-/// `upright`: n×3, up is +z, any unit. `radii`: half axes instead of the polygon, same unit. The
-/// polygon is empty when the contact points span no area.
-GroundContact groundContact(const Points& upright, const std::optional<Vec2>& radii);
+/// The hull of these points of the ground. The polygon is empty when it has an area of no more than
+/// 1e-8 of the squared diagonal.
+GroundContact contactOf(const std::vector<Vec2>& touching, double ground, double diagonal);
+
+/// All vertices within 1e-4 of the diagonal above the lowest one touch the ground, or those within
+/// `height`. `upright`: n×3, up is +z, any unit. `radii`: half axes instead of the polygon, same
+/// unit. The polygon is empty when the contact points span no area.
+GroundContact groundContact(const Points& upright, const std::optional<Vec2>& radii,
+                            const std::optional<double>& height = {});
 
 /// \throw InvalidInput when there is neither a polygon nor an ellipse
 void requireArea(const ContactArea& area);
 
 /// The area scaled: a corner p becomes p / length.
 ContactArea scaled(const ContactArea& area, double length);
+
+/// The area's size, length²; 0 where there is none.
+double sizeOf(const ContactArea& area);
+
+/// Radius of the largest circle within the area; 0 where there is none.
+double inradius(const ContactArea& area);
+
+/// Whether a circle of this radius has room in the area.
+bool holdsCircle(const ContactArea& area, double radius);
 
 /// Farthest extent of the area in the unit direction `u` (support function), ≥ 0.
 double extent(const ContactArea& area, const Vec2& u);

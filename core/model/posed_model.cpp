@@ -69,17 +69,17 @@ void requireDryOpenings(const PosedModel& posed, double waterLevel) {
 
 } // namespace
 
-PosedModel makePosedModel(const Solid& solid, const Options& options) {
+PosedModel makePosedModel(const Solid& solid, const Options& options,
+                          const std::optional<Foot>& foot) {
   PosedModel posed;
+  posed.foot = foot;
   posed.frame.rotation = rotationToUp(options.upAxis);
   const Points upright = solid.vertices() * posed.frame.rotation.transpose();
   std::optional<Vec2> radii;
   if (options.radiusX && options.radiusY) radii = Vec2(*options.radiusX, *options.radiusY);
-  const GroundContact contact = groundContact(upright, radii);
-  if (options.goal == GoalKind::Stand || options.goal == GoalKind::PublishedStand ||
-      options.goal == GoalKind::StandEmptyAndFilled) {
-    requireArea(contact.area);
-  }
+  const GroundContact contact =
+      groundContact(upright, radii, foot ? std::optional(foot->spread) : std::nullopt);
+  if (standsOnContacts(options.goal)) requireArea(contact.area);
   posed.frame.origin = posed.frame.rotation.transpose() * contact.centre;
   posed.frame.length = solid.diagonal();
   posed.contact = snappedArea(scaled(contact.area, solid.diagonal()));

@@ -3,6 +3,7 @@
 
 #include "core/base/options.h"
 #include "core/model/contact.h"
+#include "core/model/foot.h"
 #include "core/model/frame.h"
 #include "core/model/open_surface.h"
 #include "core/model/solid.h"
@@ -24,16 +25,19 @@ struct PosedModel {
   std::vector<int> vertexOf;
   /// Existing cavities, working frame, oriented into them. The new cavity takes their place.
   TriangleMesh cavities;
-  ContactArea contact; ///< working lengths
+  ContactArea contact;      ///< working lengths
+  std::optional<Foot> foot; ///< that it was cut to stand on
   /// Working length: who keeps it in the working frame keeps the wanted one in model coordinates.
   double wall = 0.0;
   /// That the user gave, working frame.
   std::optional<Vec3> pivot;
 };
 
+/// `foot`: the solid's, if it has been cut: it touches the ground with that alone.
 /// \throw InvalidInput when a goal that needs a contact area has none, the pivot lies far away, or
 /// an opening lies below the wished waterline
-PosedModel makePosedModel(const Solid& solid, const Options& options);
+PosedModel makePosedModel(const Solid& solid, const Options& options,
+                          const std::optional<Foot>& foot = {});
 
 /// For each of these vertices of the piece its place when they come in the solid's order.
 std::vector<int> placesInSolid(const PosedModel& posed, const std::vector<int>& vertices);

@@ -259,6 +259,32 @@ NestedParts nestedParts(const Points& vertices, Components components,
 
 } // namespace
 
+Faces Solid::skin() const {
+  if (isLid_.empty()) return faces();
+  Faces skin(faces().rows(), 3);
+  Eigen::Index kept = 0;
+  for (Eigen::Index f = 0; f < skin.rows(); ++f) {
+    if (isLid_[static_cast<std::size_t>(f)] == 0) skin.row(kept++) = faces().row(f);
+  }
+  return skin.topRows(kept);
+}
+
+std::vector<int> Solid::rim() const {
+  constexpr char kOfSkin = 1;
+  constexpr char kOfLid = 2;
+  std::vector<int> rim;
+  if (isLid_.empty()) return rim;
+  std::vector<char> uses(static_cast<std::size_t>(vertices().rows()), 0);
+  for (Eigen::Index f = 0; f < faces().rows(); ++f) {
+    const char use = isLid_[static_cast<std::size_t>(f)] != 0 ? kOfLid : kOfSkin;
+    for (const int v : faces().row(f)) uses[static_cast<std::size_t>(v)] |= use;
+  }
+  for (std::size_t v = 0; v < uses.size(); ++v) {
+    if (uses[v] == (kOfSkin | kOfLid)) rim.push_back(static_cast<int>(v));
+  }
+  return rim;
+}
+
 Solid makeSolid(const TriangleMesh& input, bool closeOpenings, const Mat3& rotation,
                 const Repairs& before) {
   requireFiniteTriangles(input);

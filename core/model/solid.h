@@ -30,6 +30,10 @@ public:
   /// For every face whether it is one of a lid that closes an opening of the input; empty when the
   /// input was closed.
   const std::vector<char>& isLid() const { return isLid_; }
+  /// The faces without lids.
+  Faces skin() const;
+  /// Vertices along the openings that have lids.
+  std::vector<int> rim() const;
   /// The faces' numbers in the order of `spatialOrder`, seen in the frame that was given.
   const std::vector<int>& spatialFaceOrder() const { return spatialFaceOrder_; }
 

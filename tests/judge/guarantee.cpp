@@ -235,6 +235,9 @@ double areaOf(const TriangleMesh& mesh) {
 
 using Moments10 = Eigen::Matrix<double, 10, 1>;
 
+/// What touches the ground, in diagonals, of a body that has not been cut flat.
+constexpr double kTouching = 1e-4;
+
 /// The working frame: the up axis as z, the other axes in cyclic order (for a negative up axis in
 /// the reverse one); the origin in the middle of the ground contact; the diagonal 1.
 struct Upright {
@@ -243,7 +246,8 @@ struct Upright {
   double length;
   std::vector<Vec2> contact; ///< ground points, working
 
-  Upright(const TriangleMesh& body, UpAxis up) {
+  /// `touching`: how high above the lowest vertex others touch the ground, in diagonals.
+  Upright(const TriangleMesh& body, UpAxis up, double touching = kTouching) {
     switch (up) {
     case UpAxis::PlusZ:
       turn = Mat3::Identity();
@@ -269,7 +273,7 @@ struct Upright {
     const double ground = x.col(2).minCoeff();
     std::vector<Vec2> points;
     for (Eigen::Index v = 0; v < x.rows(); ++v)
-      if (x(v, 2) <= ground + 1e-4 * length) points.emplace_back(x(v, 0), x(v, 1));
+      if (x(v, 2) <= ground + touching * length) points.emplace_back(x(v, 0), x(v, 1));
     hull(points);
     Vec2 middle = Vec2::Zero();
     double twiceArea = 0.0;
@@ -693,6 +697,34 @@ void checkSurface(const PropertyCase& c, const Result& result, const TriangleMes
   }
 }
 
+/// Nothing of the body below the plane is left, nothing above it is lost.
+void checkFoot(const PropertyCase& c, const Result& result, Findings& found) {
+  const TriangleMesh& outer = *result.outer;
+  found.require(isClosedAndOriented(outer), "the surface with a foot is not closed and oriented");
+  const std::size_t own = intersectingPairs(outer);
+  found.require(own == 0, own, " pairs of faces of the surface with a foot meet");
+  const Upright frame(c.body, c.options.upAxis);
+  const Points whole = c.body.vertices * frame.turn.transpose();
+  const Vector heights = (outer.vertices * frame.turn.transpose()).col(2);
+  const double height = whole.col(2).maxCoeff() - whole.col(2).minCoeff();
+  const double depth = number(result, "foot_depth");
+  found.require(depth <= 0.01 * height, "the foot is ", depth, " deep of ", height);
+  const double roundOff =
+      (c.floats ? 1e-6 : 1e-9) * (frame.length + c.body.vertices.cwiseAbs().maxCoeff());
+  const double level = heights.minCoeff();
+  if (!c.isBroken) {
+    found.require(std::abs(level - whole.col(2).minCoeff() - depth) <= roundOff,
+                  "the foot is not where it is said to be");
+    const double volume = quadratureMoments(outer)[0];
+    const double cut = quadratureMoments(c.body)[0] -
+                       momentsOfColumns(c.body, frame.turn.transpose() * Vec3::UnitZ(), level)[0];
+    // Corners are merged within 1e-4 of the diagonal.
+    found.require(std::abs(volume - cut) <= 1e-5 * std::pow(frame.length, 3),
+                  "the body with a foot has the volume ", volume, " instead of ", cut);
+  }
+  found.require((heights.array() == level).count() >= 3, "the foot is not flat");
+}
+
 void checkOuter(const PropertyCase& c, const Result& result, Findings& found) {
   const bool moves = c.options.outerUpperBound > 0.0;
   const bool hollow = result.inner.faces.rows() > 0;
@@ -753,9 +785,12 @@ bool hasFlatComponent(const TriangleMesh& mesh) {
   });
 }
 
-std::vector<std::string> brokenPromises(const PropertyCase& c, const Result& result) {
+namespace {
+
+std::vector<std::string> brokenPromises(const PropertyCase& c, const Result& result,
+                                        double touching) {
   Findings found;
-  const Upright frame(c.body, c.options.upAxis);
+  const Upright frame(c.body, c.options.upAxis, touching);
   const bool hollow = result.inner.faces.rows() > 0;
   const std::string message = std::get<std::string>(result.report.at("message"));
   found.require(!message.empty() && message.back() == '.', "the message is no sentence");
@@ -970,6 +1005,23 @@ std::vector<std::string> brokenPromises(const PropertyCase& c, const Result& res
     }
   }
   return found.sentences;
+}
+
+} // namespace
+
+std::vector<std::string> brokenPromises(const PropertyCase& c, const Result& result) {
+  if (!has(result, "foot_depth") || number(result, "foot_depth") == 0.0)
+    return brokenPromises(c, result, kTouching);
+  Findings found;
+  if (!result.outer) return {"the surface with a foot is missing"};
+  checkFoot(c, result, found);
+  const bool isAssembled = c.cavities.faces.rows() > 0 && result.inner.faces.rows() == 0;
+  if (!found.sentences.empty() || isAssembled) return found.sentences;
+  // From here on it is the body.
+  PropertyCase footed = c;
+  footed.body = *result.outer;
+  footed.isBroken = true; // so that an outer surface is no wonder
+  return brokenPromises(footed, result, 0.0);
 }
 
 } // namespace massprops::testing

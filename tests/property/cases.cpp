@@ -602,6 +602,9 @@ PropertyCase makeCase(std::uint32_t seed, int number) {
   if (chance.oneIn(5)) o.weights.volume = chance.between(0.0, 2.0);
   o.spinSpeed = chance.logBetween(100.0, 1e5);
   o.cavityShape = static_cast<CavityShape>(chance.integer(0, 2));
+  // Cut flat instead of standing on given radii.
+  if (o.radiusX && o.outerUpperBound == 0.0 && chance.oneIn(2)) o.radiusX = o.radiusY = {};
+  if (o.outerUpperBound > 0.0) o.foot = FootCut::Never;
   if (c.floats)
     o.representable = [](const Points& points) {
       return Points(points.cast<float>().cast<double>());
