@@ -2,6 +2,8 @@
 #include "core/model/foot.h"
 
 #include "core/base/angles.h"
+#include "core/base/tolerances.h"
+#include "core/model/frame.h"
 #include "core/pipeline.h"
 #include "judge/checks.h"
 #include "shapes.h"
@@ -10,7 +12,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace massprops::testing {
@@ -30,6 +35,17 @@ double number(const Result& result, const std::string& key) {
 
 std::string text(const Result& result, const std::string& key) {
   return std::get<std::string>(result.report.at(key));
+}
+
+/// Edges of one face.
+std::size_t borderEdges(const TriangleMesh& mesh) {
+  std::set<std::pair<int, int>> edges;
+  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) edges.emplace(mesh.faces(f, k), mesh.faces(f, (k + 1) % 3));
+  }
+  return static_cast<std::size_t>(std::count_if(edges.begin(), edges.end(), [&](const auto& edge) {
+    return edges.count({edge.second, edge.first}) == 0;
+  }));
 }
 
 Options standing() {
@@ -220,12 +236,14 @@ TEST(PipelineFoot, ABallStandsOnIt) {
 }
 
 TEST(PipelineFoot, IsDeeperWhereThatLetsTheGoalBeReached) {
-  // A ball with a lump at its side stands on a wider foot only.
+  // A ball with a lump at its side tips over at 8° on a wider foot only.
   const TriangleMesh lopsided = starShaped(
       [](const Vec3& u) { return 1.0 + 0.35 * std::exp(-4.0 * (u - Vec3::UnitX()).squaredNorm()); },
       20);
   Options options = standing();
+  options.tippingAngle = 8.0;
   const Result result = optimizeMassProperties(lopsided, options);
+  EXPECT_TRUE(std::get<bool>(result.report.at("solved")));
   expectFooted(lopsided, result, 0.01 * diagonal(*result.outer));
   const double least = onFoot(makeSolid(lopsided), options).foot->depth;
   EXPECT_GT(number(result, "foot_depth"), 2.0 * least);
@@ -266,7 +284,7 @@ TEST(PipelineFoot, OfAnOpenSurface) {
   ASSERT_TRUE(result.outer);
   EXPECT_GT(number(result, "foot_depth"), 0.0);
   EXPECT_TRUE(std::get<bool>(result.report.at("solved")));
-  EXPECT_EQ(eulerCharacteristic(*result.outer), 1);
+  EXPECT_EQ(borderEdges(*result.outer), borderEdges(bowl));
 }
 
 TEST(Pipeline, SpeaksOfUnitsWhereTheModelIsVerySmallOrLarge) {
