@@ -145,6 +145,8 @@ Rows generalRows() {
 Rows goalRows() {
   const std::vector<GoalKind> onGround = {GoalKind::Stand, GoalKind::StandEmptyAndFilled,
                                           GoalKind::RollUpright, GoalKind::PublishedStand};
+  const std::vector<GoalKind> standing = {GoalKind::Stand, GoalKind::StandEmptyAndFilled,
+                                          GoalKind::PublishedStand};
   const std::vector<GoalKind> withPivot = {GoalKind::Spin, GoalKind::YoYo, GoalKind::Hang};
   return {
       of(onGround,
@@ -155,6 +157,16 @@ Rows goalRows() {
          number("radius_y", "Contact radius y", "mm", &Options::radiusY,
                 "Half axis of an elliptic contact area along the second horizontal axis (y when z "
                 "is up), in model units. 0: the area is taken from the ground contacts.")),
+      of(standing, choice("foot", "Foot (Stand)", &Options::foot, {"Automatic", "Never", "Given"},
+                          "Automatic: a model that touches the ground in a point, along a line or "
+                          "on too little is cut flat, at most 1 % of its height above its lowest "
+                          "point. Never: it stays. Given: by foot_depth. With radius_x and "
+                          "radius_y nothing is cut. Stand, Stand (published), Stand empty and "
+                          "filled.")),
+      of(standing,
+         length("foot_depth", "Foot depth", &Options::footDepth,
+                "How far above its lowest point the model is cut flat, in model units or percent "
+                "of the diagonal; only where foot is Given.")),
       of({GoalKind::Stand},
          number("tipping_angle", "Tipping angle (Stand)", "\u00b0", &Options::tippingAngle,
                 "The angle by which it shall be possible to tilt the model before it falls over, "

@@ -79,6 +79,7 @@ TEST(ParameterTable, HasDefaultsThatChangeNothing) {
   EXPECT_EQ(given.weights.constraints, defaults.weights.constraints);
   EXPECT_FALSE(given.pivot.has_value());
   EXPECT_EQ(given.mend, defaults.mend);
+  EXPECT_EQ(given.foot, defaults.foot);
 }
 
 TEST(ParameterTable, PutsEachNumberIntoItsOwnOption) {
@@ -95,6 +96,7 @@ TEST(ParameterTable, PutsEachNumberIntoItsOwnOption) {
   EXPECT_EQ(options.fillDensity, set("fill_density"));
   EXPECT_EQ(options.radiusX, set("radius_x"));
   EXPECT_EQ(options.radiusY, set("radius_y"));
+  EXPECT_EQ(options.footDepth, set("foot_depth"));
   EXPECT_EQ(options.tippingAngle, set("tipping_angle"));
   EXPECT_EQ(options.pivot, Vec3(set("pivot_x"), set("pivot_y"), set("pivot_z")));
   EXPECT_EQ(options.spinSpeed, set("spin_speed"));
