@@ -20,7 +20,8 @@ struct Delivery {
 };
 
 /// `vertexOf`: of an offset surface, for every vertex of what moved that of the posed model;
-/// `representable`: rounds to what the caller can store. Where the search found nothing, nothing but a body with a foot.
+/// `representable`: rounds to what the caller can store. Where the search found nothing, nothing
+/// but a body with a foot.
 Delivery deliver(const Solid& solid, const PosedModel& posed, const CavityTask& task,
                  const CavityResult& cavity, const std::vector<int>& vertexOf,
                  const std::function<Points(const Points&)>& representable);
