@@ -3,11 +3,13 @@
 #include "core/base/tolerances.h"
 #include "core/mesh/components.h"
 #include "core/mesh/plane_cut.h"
+#include "core/mesh/signed_volume.h"
 #include "core/model/frame.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace massprops {
 namespace {
@@ -70,6 +72,26 @@ double bestDepth(const LowestPart& lowest, double least, double most, double rad
   return best;
 }
 
+struct Pieces {
+  std::size_t bodies = 0, crumbs = 0;
+};
+
+Pieces piecesOf(const Solid& solid) {
+  constexpr double kCrumb = 1e-3; // of the volume
+  const double whole = signedVolume(solid.vertices(), solid.faces());
+  Pieces pieces;
+  for (const Faces& part : connectedComponents(solid.vertices().rows(), solid.faces())) {
+    const bool isCrumb = signedVolume(solid.vertices(), part) < kCrumb * whole;
+    ++(isCrumb ? pieces.crumbs : pieces.bodies);
+  }
+  return pieces;
+}
+
+/// Crumbs of a mended model may; a body may not even lose one.
+bool fallsApart(const Pieces& before, const Pieces& after) {
+  return after.bodies > before.bodies || after.crumbs > 2 * before.crumbs;
+}
+
 /// Empty where the cut surface bounds no solid, falls into more pieces, or has another foot than
 /// the plane cuts out.
 std::optional<Footing> cutBy(double depth, double merged, const Solid& solid,
@@ -91,10 +113,7 @@ std::optional<Footing> cutBy(double depth, double merged, const Solid& solid,
                    Foot{depth, cut->spread},
                    {}};
     requireNoCrossings(result.solid);
-    const auto pieces = [](const Solid& s) {
-      return connectedComponents(s.vertices().rows(), s.faces()).size();
-    };
-    if (pieces(result.solid) > pieces(solid)) return std::nullopt;
+    if (fallsApart(piecesOf(solid), piecesOf(result.solid))) return std::nullopt;
     const GroundContact contact = groundContact(
         result.solid.vertices() * upright.rotation.transpose(), {}, result.foot->spread);
     constexpr double kSame = 0.9;
@@ -109,7 +128,10 @@ std::optional<Footing> cutBy(double depth, double merged, const Solid& solid,
 std::optional<Footing> cutNear(double wanted, double most, const LowestPart& lowest,
                                const Solid& solid, const Upright& upright, const Options& options) {
   const double merged = kContactHeight * solid.diagonal();
-  for (const double factor : {1.0, 1.03, 0.97, 1.06, 0.94, 1.09, 0.91}) {
+  std::vector<double> factors{1.0, 1.03, 0.97, 1.06, 0.94, 1.09, 0.91};
+  // Of what falls apart a little is better than nothing.
+  if (options.foot != FootCut::Given) factors.insert(factors.end(), {0.75, 0.5, 0.25});
+  for (const double factor : factors) {
     const double depth = lowest.clearDepth(factor * wanted);
     if (depth > most) continue;
     const GroundContact expected = lowest.contactAt(depth);
@@ -121,7 +143,7 @@ std::optional<Footing> cutNear(double wanted, double most, const LowestPart& low
   return std::nullopt;
 }
 
-Footing onGivenFoot(Solid solid, const Upright& upright, const Options& options) {
+Footing onGivenFoot(const Solid& solid, const Upright& upright, const Options& options) {
   constexpr double kMost = 0.5;
   const double room = std::min(roomBelow(solid, upright), kMost * upright.height);
   if (options.footDepth >= room) {
@@ -211,7 +233,7 @@ Footing onFoot(Solid solid, const Options& options, const std::optional<double>&
   const Upright upright(solid, options);
   if (options.foot == FootCut::Given) {
     requireNoCrossings(solid);
-    return onGivenFoot(std::move(solid), upright, options);
+    return onGivenFoot(solid, upright, options);
   }
   const double radius = kFootInradius * solid.diagonal();
   const ContactArea contacts = groundContact(upright.vertices, {}).area;
