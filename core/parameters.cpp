@@ -139,6 +139,9 @@ Rows generalRows() {
       number("fill_density", "Filling", "g/cm\u00b3", &Options::fillDensity,
              "Density of what fills the cavity: 0 is air, 1 is water. Stand empty and filled needs "
              "it."),
+      share("cavity_infill", "Infill of the cavity", &Options::cavityInfill,
+            "The cavity is printed as sparse infill of this share of the material, which carries "
+            "its ceiling, instead of left empty: 0.1 is 10 %."),
   };
 }
 

@@ -3,6 +3,7 @@
 #include "core/answer/delivery.h"
 #include "core/answer/hollowing_report.h"
 #include "core/answer/skeleton_marks.h"
+#include "core/base/option_pairs.h"
 #include "core/base/parallel.h"
 #include "core/base/tolerances.h"
 #include "core/best/best_cavity.h"
@@ -35,7 +36,7 @@ Footing stand(Solid solid, const Options& options, const std::optional<double>& 
 
 PosedModel pose(const Footing& footing, const Options& options) {
   PosedModel result = makePosedModel(footing.solid, options, footing.foot);
-  if (result.open) requireSensibleForShell(options);
+  requireCompatible(options, result.open.has_value());
   return result;
 }
 

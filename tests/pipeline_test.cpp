@@ -1055,6 +1055,22 @@ TEST(Pipeline, AFillingHeavierThanTheMaterialInvertsTheOptimum) {
   EXPECT_GT(number(filled, "mass_after"), number(filled, "mass_before"));
 }
 
+TEST(Pipeline, AnInfillIsAFillingOfThatShareOfTheMaterial) {
+  const TriangleMesh model = leaningPillar();
+  Options printed = stand();
+  printed.density = 2.0;
+  printed.cavityInfill = 0.25;
+  Options filled = stand();
+  filled.density = 2.0;
+  filled.fillDensity = 0.5;
+  const Result a = optimizeMassProperties(model, printed);
+  const Result b = optimizeMassProperties(model, filled);
+  EXPECT_EQ(a.inner.vertices, b.inner.vertices);
+  EXPECT_EQ(number(a, "mass_after"), number(b, "mass_after"));
+  EXPECT_EQ(number(a, "tip_angle_limit"), number(b, "tip_angle_limit"));
+  EXPECT_NE(std::get<std::string>(a.report.at("print_as")).find("25 %"), std::string::npos);
+}
+
 TEST(Pipeline, EveryGoalIsReachedWithALightAndAHeavyFilling) {
   const TriangleMesh model = transformed(roundedBox({1, 1, 2}, 0.15, 6, 2), shear(0.03));
   for (std::size_t goal = 0; goal < goalNames().size(); ++goal) {
@@ -1149,6 +1165,9 @@ TEST(Pipeline, RefusesAbsurdParametersByName) {
       {with([](Options& o) { o.density = -1.24; }), "density"},
       {with([](Options& o) { o.density = 0.0; }), "density"},
       {with([](Options& o) { o.fillDensity = -1.0; }), "fill_density"},
+      {with([](Options& o) { o.cavityInfill = -0.1; }), "cavity_infill"},
+      {with([](Options& o) { o.cavityInfill = 1.0; }), "cavity_infill"},
+      {with([&](Options& o) { o.cavityInfill = nan; }), "cavity_infill"},
       {with([](Options& o) { o.goal = GoalKind::StandEmptyAndFilled; }), "fill_density"},
       {with([](Options& o) { o.goal = GoalKind::YoYo, o.basisSize = 4; }), "basis_k"},
       {with([](Options& o) { o.waterLevel = 0.0; }), "water_level"},

@@ -13,10 +13,16 @@
 namespace massprops {
 namespace {
 
-/// All is calculated for material of one density; sparse infill lets the walls have another one
-/// inside than at their skins.
-constexpr const char* kPrintAs = "dense: 100 % infill, or walls made of perimeters throughout";
-constexpr const char* kOtherwise = "; with less than infill_at_least the verdict does not hold";
+/// All is calculated for walls of one density; sparse infill lets them have another one inside
+/// than at their skins.
+std::string printAs(double cavityInfill, bool hasMargins) {
+  std::string words = "dense: 100 % infill, or walls made of perimeters throughout";
+  if (cavityInfill > 0.0) {
+    words += "; the cavity as infill of " + toString(100.0 * cavityInfill) + " % without skins";
+  }
+  if (hasMargins) words += "; with less than infill_at_least the verdict does not hold";
+  return words;
+}
 
 /// A body in the model's own coordinates and in grams.
 MassProperties inModel(const Moments& massMoments, const Frame& frame, double density) {
@@ -280,7 +286,8 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Ve
     addLimit(task, verdicts, before, after, report);
     addCertificates(posed.frame, stages, report);
   }
-  report.add("print_as", std::string(kPrintAs) + (stages.margins ? kOtherwise : ""));
+  report.add("print_as",
+             printAs(hasCavity ? options.cavityInfill : 0.0, stages.margins.has_value()));
   if (stages.margins) {
     report.add("infill_at_least", stages.margins->infill);
     report.add("wall_error_at_most", stages.margins->wall * posed.frame.length);

@@ -21,6 +21,9 @@ void requireSensibleWishes(const Options& options) {
           "density must be greater than 0 g/cm³; PLA has 1.24.");
   require(finite(options.fillDensity) && options.fillDensity >= 0.0,
           "fill_density must be 0 (an empty cavity) or positive.");
+  require(options.cavityInfill >= 0.0 && options.cavityInfill < 1.0,
+          "cavity_infill is a share of the material: give 0 (an empty cavity) or a value below 1; "
+          "0.1 carries a ceiling.");
   require(options.goal != GoalKind::StandEmptyAndFilled || options.fillDensity > 0.0,
           "The goal Stand empty and filled needs fill_density, the density of what will be in the "
           "cavity: 1 for water.");
@@ -80,9 +83,6 @@ void requireSensible(const Options& options, Eigen::Index vertexCount, double di
           "outer_upper_bound is more than half of the model's diagonal: lower it.");
   require(!options.solidDepth || (finite(*options.solidDepth) && *options.solidDepth > 0.0),
           "solid_depth must be a length, or 0 for four walls.");
-  require(options.keptSolid.faces.rows() == 0 || options.outerUpperBound == 0.0,
-          "Selected faces stay solid only where the outer surface stays where it is: set "
-          "outer_lower_bound and outer_upper_bound to 0, or switch keep_selected_solid off.");
   const Weights& w = options.weights;
   for (const double weight :
        {w.volume, w.centerOfMass, w.inertia, w.smoothness, w.constraints, w.outer}) {
@@ -91,14 +91,8 @@ void requireSensible(const Options& options, Eigen::Index vertexCount, double di
   requireSensibleWishes(options);
 }
 
-void requireSensibleForShell(const Options& options) {
-  require(
-      options.cavityShape != CavityShape::BestPossible,
-      "The best possible cavity needs a closed surface: set cavity_shape to Automatic or Offset "
-      "surface, or close it with Remeshing > Close Holes.");
-  if (options.outerUpperBound == 0.0) return;
-  throw InvalidInput("An open surface stays where it is: set outer_lower_bound and "
-                     "outer_upper_bound to 0, or close it with Remeshing > Close Holes.");
+double contentsDensity(const Options& options) {
+  return options.fillDensity + options.cavityInfill * options.density;
 }
 
 } // namespace massprops

@@ -69,6 +69,8 @@ struct Options {
   UpAxis upAxis = UpAxis::PlusZ;
   double density = 1.24;    ///< of the material, g/cm³; the default is PLA
   double fillDensity = 0.0; ///< of what fills the cavity, g/cm³
+  /// Share of the material that the cavity is printed with, as sparse infill; 0: left empty.
+  double cavityInfill = 0.0;
   /// Spin: any point of the axis; Yo-yo: the middle of the axle; Hang: the point it hangs from. In
   /// model coordinates. Empty: Spin takes the centre of the ground contact, Yo-yo the point above
   /// it at half the height, Hang the middle of the topmost vertices.
@@ -109,7 +111,7 @@ inline bool standsOnContacts(GoalKind goal) {
 
 /// \throw InvalidInput when an option is absurd in itself or for a model of that size
 void requireSensible(const Options& options, Eigen::Index vertexCount, double diagonal);
-/// \throw InvalidInput when an option is absurd for a surface that is open
-void requireSensibleForShell(const Options& options);
+/// Density of what is in the cavity once it is printed and filled, g/cm³.
+double contentsDensity(const Options& options);
 
 } // namespace massprops

@@ -35,7 +35,7 @@ Vec3 middleOfAxle(const GoalInputs& in) {
 }
 
 double filling(const Options& options) {
-  return options.fillDensity / options.density;
+  return contentsDensity(options) / options.density;
 }
 
 double waterDensity(const GoalInputs& in) {

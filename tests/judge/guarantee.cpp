@@ -605,6 +605,11 @@ double volumeBelow(const TriangleMesh& mesh, const Vec3& up, double level) {
   return volume;
 }
 
+/// Density of what is in the cavity, filled in or printed, g/cm³.
+double contentsOf(const PropertyCase& c) {
+  return c.options.fillDensity + c.options.cavityInfill * c.options.density;
+}
+
 /// Least tipping angle, degrees, over levels of what the cavity of the body holds. `inner`: as
 /// delivered, oriented into the cavity.
 double leastAngleWhileFilled(const PropertyCase& c, const Upright& frame, const TriangleMesh& inner,
@@ -618,8 +623,7 @@ double leastAngleWhileFilled(const PropertyCase& c, const Upright& frame, const 
   for (int i = 0; i <= kLevels; ++i) {
     const double level =
         heights.minCoeff() + (heights.maxCoeff() - heights.minCoeff()) * i / kLevels;
-    const Eigen::Vector4d contents =
-        -c.options.fillDensity / 1000 * momentsOfColumns(near, up, level);
+    const Eigen::Vector4d contents = -contentsOf(c) / 1000 * momentsOfColumns(near, up, level);
     Body body = empty;
     body.mass += contents[0];
     body.centre = place + (empty.mass * (empty.centre - place) + contents.tail<3>()) / body.mass;
@@ -828,7 +832,7 @@ std::vector<std::string> brokenPromises(const PropertyCase& c, const Result& res
   const Body before = bodyWith(density * inputMoments);
   // Stand empty and filled reports on the empty body.
   const bool bothStates = c.options.goal == GoalKind::StandEmptyAndFilled;
-  const double filling = c.options.fillDensity / 1000;
+  const double filling = contentsOf(c) / 1000;
   const Body after = bodyWith(density * afterMoments - (bothStates ? 0.0 : filling) * innerMoments);
   // Coordinates are used rounded to 2⁻³² of the diagonal: errors of the volume up to the area times
   // that, and relative ones that are large where little material is left.

@@ -587,7 +587,13 @@ PropertyCase makeCase(std::uint32_t seed, int number) {
     o.outerLowerBound = chance.oneIn(2) ? 0.0 : chance.between(0.0, 1.0) * o.outerUpperBound;
   }
   if (chance.oneIn(4) || o.goal == GoalKind::StandEmptyAndFilled) {
-    o.fillDensity = o.density * chance.between(0.01, 3.0);
+    const double contents = chance.between(0.01, 3.0);
+    // What is light is printed rather than filled in.
+    if (contents < 0.6 && o.goal != GoalKind::StandEmptyAndFilled) {
+      o.cavityInfill = contents;
+    } else {
+      o.fillDensity = o.density * contents;
+    }
   }
   o.waterLevel = chance.oneIn(5) ? 1.0 : chance.between(0.2, 0.9);
   o.waterDensity = o.density * chance.between(0.3, 1.5);
@@ -616,6 +622,7 @@ PropertyCase makeCase(std::uint32_t seed, int number) {
   if (o.outerUpperBound > 0.0)
     text << " outer " << o.outerLowerBound / diagonal << ".." << o.outerUpperBound / diagonal;
   if (o.fillDensity > 0.0) text << " fill " << o.fillDensity / o.density;
+  if (o.cavityInfill > 0.0) text << " infill " << o.cavityInfill;
   if (o.goal == GoalKind::Float) {
     text << " water " << o.waterLevel << " of density " << o.waterDensity / o.density;
   }
