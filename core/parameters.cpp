@@ -232,6 +232,24 @@ Rows resultRows() {
   };
 }
 
+Rows printRows() {
+  return {
+      choice("build_axis", "Build axis", &Options::buildAxis,
+             {"As used", "+Z", "+Y", "+X", "-Z", "-Y", "-X"},
+             "Axis of the scene that points up in the printer. As used: the up axis."),
+      {"print_file",
+       ParameterKind::File,
+       std::string(),
+       "Project for the slicer",
+       "",
+       "A 3MF project is written here: the body, its cavity as a part of its own where it has "
+       "infill, the settings that make the print weigh what was calculated, and the report. "
+       "PrusaSlicer opens it. Empty: none.",
+       {"*.3mf"},
+       to(&Options::printFile)},
+  };
+}
+
 Rows searchRows() {
   return {
       share("inner_upper_bound", "Greatest inner offset", &Options::innerUpperBound,
@@ -282,6 +300,7 @@ Rows allRows() {
   append(table, generalRows(), "");
   append(table, goalRows(), "Goal");
   append(table, modelRows(), "Model");
+  append(table, printRows(), "Print");
   append(table, resultRows(), "Result");
   append(table, searchRows(), "Search", true);
   return table;

@@ -3,6 +3,7 @@
 #include "core/base/parallel.h"
 #include "core/base/stopwatch.h"
 #include "core/pipeline_stages.h"
+#include "core/print/whole_file.h"
 
 #include <stdexcept>
 #include <string>
@@ -29,6 +30,7 @@ Result hollowed(const TriangleMesh& model, const Known& known, const Options& op
   Result result = deliver(prepared, foundation, found, options, bar);
   result.report = report(prepared, foundation, found, options);
   if (options.showAnswer) draw(prepared, foundation, found, options, bar, result);
+  if (!options.printFile.empty()) print(prepared, options, bar, result);
   return result;
 }
 
@@ -53,6 +55,7 @@ Result run(const TriangleMesh& model, const Options& options, const Progress& pr
   const Stopwatch total;
   const ThreadTeam team;
   ProgressBar bar(progress);
+  if (!options.printFile.empty()) requireWritable(options.printFile);
   Result result = hollowedOrMended(model, options, bar);
   result.report.add("seconds_total", total.seconds());
   bar.show(100, "Done");

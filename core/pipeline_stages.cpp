@@ -11,11 +11,14 @@
 #include "core/model/frame.h"
 #include "core/model/mending.h"
 #include "core/optimum/foot_depth.h"
+#include "core/print/print_project.h"
+#include "core/print/whole_file.h"
 #include "core/reduced/hollow_body.h"
 #include "core/reduced/search_strategy.h"
 
 #include <cmath>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <string>
 #include <utility>
@@ -90,6 +93,15 @@ OffsetBounds boundsOfOuter(const Preparation& model, const OffsetField& field,
 
 Points representable(const Options& options, const Points& points) {
   return options.representable ? options.representable(points) : points;
+}
+
+/// Faces of an open surface.
+Faces withoutLids(const Solid& solid) {
+  std::vector<int> skin;
+  for (Eigen::Index f = 0; f < solid.faces().rows(); ++f) {
+    if (solid.isLid()[static_cast<std::size_t>(f)] == 0) skin.push_back(static_cast<int>(f));
+  }
+  return solid.faces()(skin, Eigen::all);
 }
 
 /// What is asked of a cavity, however it is found.
@@ -513,6 +525,22 @@ Report report(const Preparation& model, const Foundation& foundation, const Sear
   stages.secondsCertificate = found.secondsCertificate;
   return hollowingReport(model.posed, found.task, {*found.verdictBefore, *found.verdictAfter},
                          found.cavity, options, stages);
+}
+
+void print(const Preparation& model, const Options& options, ProgressBar& bar, Result& result) {
+  bar.show(98, "Project for the slicer");
+  const Solid& solid = model.solid;
+  PrintJob job;
+  job.isOpen = model.posed.open.has_value();
+  job.wall = model.posed.wall * model.posed.frame.length;
+  job.outer = result.outer ? *result.outer : TriangleMesh{solid.vertices(), solid.faces()};
+  job.cavity = result.inner.faces.rows() > 0 ? result.inner : solid.cavities();
+  if (job.isOpen && !result.outer) job.outer.faces = withoutLids(solid);
+  const std::string name = std::filesystem::u8path(options.printFile).stem().u8string();
+  const PrintProject project = printProject(job, options, name);
+  describe(project, result.report);
+  writeWhole(options.printFile,
+             [&](const std::string& path) { writeArchive(path, filesOf(project, result.report)); });
 }
 
 void draw(const Preparation& model, const Foundation& foundation, const Search& found,

@@ -4,6 +4,7 @@
 #   <name>_inner.ply   the cavity's surface
 #   <name>_outer.ply   the outer surface, where it moved
 #   <name>_solid.stl   outer and inner surface together, ready for a slicer
+#   <name>.3mf         a project for PrusaSlicer
 #   <name>_report.txt  the numbers, before and after
 #   <name>.png         a picture of the model cut open
 # The texts of all programs that ran are in out/<name>.log.
@@ -46,11 +47,13 @@ for name in "$@"; do
     tilted_ellipsoid_top) script=sample_meshes/spin.mlx ;;
     *) script=sample_meshes/$name.mlx ;;
   esac
-  rm -f "$inner" "$solid" "$report" "$log" "out/$name.png"
+  rm -f "$inner" "$solid" "$report" "$log" "out/$name.png" "out/$name.3mf"
+  printed=out/$name.mlx
+  sed "s|\(name=\"print_file\" value=\"\)|\1$PWD/out/$name.3mf|" "$script" >"$printed"
 
   moved=
   if grep -q 'name="outer_upper_bound" value="0"' "$script"; then
-    scripts/meshlabserver.sh -i "$mesh" -o "$inner" -l x -s "$script" >>"$log" 2>&1 || {
+    scripts/meshlabserver.sh -i "$mesh" -o "$inner" -l x -s "$printed" >>"$log" 2>&1 || {
       cat "$log" >&2
       exit 1
     }
@@ -58,7 +61,7 @@ for name in "$@"; do
     # The outer surface moves as well: MeshLab saves all layers beside the first one.
     layers=$(mktemp -d)
     cp "$mesh" "$layers/model.ply"
-    scripts/meshlabserver.sh -i "$layers/model.ply" -w "$layers/layers.mlp" -s "$script" \
+    scripts/meshlabserver.sh -i "$layers/model.ply" -w "$layers/layers.mlp" -s "$printed" \
       >>"$log" 2>&1 || { cat "$log" >&2; exit 1; }
     moved=out/${name}_outer.ply
     mv "$layers"/*inneroffsetsurface*.ply "$inner"
@@ -70,6 +73,7 @@ for name in "$@"; do
     # Without a cavity the last layer is the model itself.
     rm -f "$inner"
   fi
+  rm -f "$printed"
   $python scripts/report_table.py "$report" "$name"
 
   # One model is drawn while the next one is hollowed.
@@ -81,4 +85,4 @@ wait "$drawing"
 
 echo
 echo "Written:"
-ls -l out/*.ply out/*.stl out/*.png
+ls -l out/*.ply out/*.stl out/*.3mf out/*.png

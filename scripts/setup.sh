@@ -18,6 +18,7 @@ packages="
   meshlab dpkg-dev file
   g++ cmake ninja-build
   libcgal-dev libeigen3-dev libspectra-dev libnlopt-dev libnlopt-cxx-dev
+  libminizip-dev zlib1g-dev libpugixml-dev libstb-dev prusa-slicer
   qtbase5-dev libqt5opengl5-dev libglew-dev libgl-dev
   libgtest-dev libbenchmark-dev libbullet-dev clang-format-14
   xvfb xauth libgl1-mesa-dri xdotool dbus-daemon dbus-bin at-spi2-core python3-pyatspi

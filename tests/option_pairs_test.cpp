@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <utility>
@@ -14,6 +15,10 @@
 
 namespace massprops::testing {
 namespace {
+
+std::string projectFile() {
+  return (std::filesystem::temp_directory_path() / "massprops_pairs.3mf").u8string();
+}
 
 /// A leaning box, and the same without its top.
 TriangleMesh pillar(bool isOpen) {
@@ -54,6 +59,7 @@ const std::vector<Wish>& wishes() {
          o.keptSolid = {model.vertices, model.faces.topRows(8)};
        }},
       {"mend", [](Options& o) { o.mend = true; }},
+      {"print_file", [](Options& o) { o.printFile = projectFile(); }},
   };
   return all;
 }
@@ -101,6 +107,7 @@ TEST(OptionPairs, WorkOrAreRefusedWithASentence) {
       EXPECT_NE(refusal.find(": set "), std::string::npos) << refusal;
     }
   }
+  std::filesystem::remove(projectFile());
 }
 
 TEST(OptionPairs, EachRefusalIsForAPairOfItsOwn) {

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 
 namespace massprops {
 
@@ -37,6 +38,9 @@ enum class FootCut {
 
 /// In the order of the dialog.
 enum class UpAxis { PlusZ, PlusY, PlusX, MinusZ, MinusY, MinusX };
+
+/// Which way is up in the printer, in the order of the dialog; `AsUsed`: as `UpAxis` says.
+enum class BuildAxis { AsUsed, PlusZ, PlusY, PlusX, MinusZ, MinusY, MinusX };
 
 /// Dimensionless factors of the objective's terms (docs/math.md, "Objective"). The defaults give
 /// the goal's published objective.
@@ -98,6 +102,8 @@ struct Options {
   bool mend = true;
   /// Whether the result brings a picture of the answer.
   bool showAnswer = false;
+  BuildAxis buildAxis = BuildAxis::AsUsed; ///< what is printed is turned so that this one is up
+  std::string printFile; ///< path, UTF-8, of a 3MF project for a slicer; empty: none
   /// Rounds points to what the caller can store (a float mesh, say). What is delivered, checked
   /// and reported is the rounded surface. Empty: double precision.
   std::function<Points(const Points&)> representable;

@@ -1,5 +1,7 @@
 """Each parameter acts as its tooltip says, seen in the files and reports of real runs."""
+import re
 import unittest
+import zipfile
 
 import numpy as np
 
@@ -233,6 +235,34 @@ class ParametersTest(HostTest):
                                    atol=1e-5 * np.trace(inertia))
         empty, _ = self.top(fill_density=0)
         self.assertGreater(report["mass_after"], 1.05 * empty["mass_after"])
+
+    def test_cavity_infill_weighs_its_share_of_the_material(self):
+        report, inner = self.top(cavity_infill=0.1)
+        mass, centre, _ = measure.hollow_body(self.outer, inner, 1.24, 0.124)
+        self.assertAlmostEqual(report["mass_after"] / mass, 1, delta=1e-6)
+        np.testing.assert_allclose(report["center_of_mass_after"], centre, atol=1e-5)
+        self.assertIn("10 %", report["print_as"])
+        filled, (same, _) = self.top(fill_density=0.124)
+        np.testing.assert_allclose(filled["center_of_mass_after"], centre, atol=1e-4)
+        self.assertLess(np.abs(inner[0] - same).max(), 1e-3 * self.diagonal)
+
+    def test_print_file_is_written_with_the_build_axis_up(self):
+        extent = np.ptp(self.outer[0], axis=0)
+        for build_axis, up in ((0, 2), (3, 0)):
+            project = self.folder / "top.3mf"
+            report, _ = self.top(print_file=project, build_axis=build_axis)
+            with zipfile.ZipFile(project) as archive:
+                self.assertIsNone(archive.testzip())
+                model = archive.read("3D/3dmodel.model").decode()
+                written = report_in(archive.read("Metadata/report.txt").decode())
+            z = [float(value) for value in re.findall(r'<vertex [^>]* z="([^"]*)"', model)]
+            self.assertAlmostEqual(min(z), 0, delta=1e-4)
+            self.assertAlmostEqual(max(z[:len(self.outer[0])]), extent[up], delta=1e-3)
+            self.assertEqual(written["mass_after"], report["mass_after"])
+            self.assertAlmostEqual(report["print_mass"] / report["mass_after"], 1, delta=1e-6)
+            first = project.read_bytes()
+            self.top(print_file=project, build_axis=build_axis)
+            self.assertEqual(project.read_bytes(), first, "the same bytes")
 
     def test_the_pivot_is_what_the_model_turns_about(self):
         pivot = {"pivot_x": 4, "pivot_y": -3, "pivot_z": 60}

@@ -177,6 +177,21 @@ class RefusalsTest(HostTest):
         self.refuse(cube(), "target_mass", goal=mass, target_mass=-1)
         self.refuse(cube(), "pivot lies", goal=hang, use_pivot="true", pivot_x=1e6)
 
+    def test_infill_of_the_cavity(self):
+        self.refuse(cube(), "cavity_infill", basis_k=8, cavity_infill=-0.1)
+        self.refuse(cube(), "cavity_infill", basis_k=8, cavity_infill=1)
+        self.refuse(cube(), "cannot be filled", basis_k=8, cavity_infill=0.1, fill_density=1)
+
+    def test_a_project_is_written_whole_or_not_at_all(self):
+        self.refuse(cube(), "cannot be written", basis_k=8,
+                    print_file=self.folder / "missing" / "a.3mf")
+        self.refuse(cube(), "must end in .3mf", basis_k=8, print_file=self.folder / "a.stl")
+        project = self.folder / "a.3mf"
+        project.write_text("old")
+        self.refuse(cube(), "basis_k", basis_k=0, print_file=project)
+        self.assertEqual(project.read_text(), "old")
+        self.assertEqual([f.name for f in self.folder.glob("a.3mf*")], ["a.3mf"])
+
     def test_what_stays_solid(self):
         self.refuse(cube(), "No face is selected", keep_selected_solid="true")
         self.refuse(cube(), "solid_depth", solid_depth=-1, basis_k=8)
