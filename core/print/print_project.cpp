@@ -53,6 +53,23 @@ std::vector<ProjectPart> partsOf(const TriangleMesh& outer, const TriangleMesh& 
   return parts;
 }
 
+/// What there is to know before it is printed; often nothing.
+std::string noteOn(const PrintProject& project) {
+  std::string note;
+  if (!project.firstLayerHolds) {
+    note =
+        "The first layer, " + toString(std::round(project.firstLayer.area)) +
+        " mm\u00b2, is too small to hold the print: the project has a brim and support outside, or "
+        "choose another build_axis.";
+  }
+  const double width = project.settings.lineWidth;
+  if (project.wall < width) {
+    note += (note.empty() ? "" : " ") + std::string("Walls thinner than a line of ") +
+            toString(width) + " mm are printed thicker than they were calculated.";
+  }
+  return note;
+}
+
 Report withoutTimes(const Report& report) {
   Report result;
   for (const auto& entry : report.entries) {
@@ -66,6 +83,7 @@ Report withoutTimes(const Report& report) {
 PrintProject printProject(const PrintJob& job, const Options& options, const std::string& name) {
   constexpr double kBrim = 5.0;
   PrintProject project;
+  project.wall = job.wall;
   project.pose = poseOnPlate(job.outer.vertices, options);
   const TriangleMesh outer{project.pose(job.outer.vertices), job.outer.faces};
   const TriangleMesh cavity{project.pose(job.cavity.vertices), job.cavity.faces};
@@ -98,11 +116,8 @@ void describe(const PrintProject& project, Report& report) {
   report.add("print_perimeters", project.settings.perimeters);
   report.add("first_layer_area", project.firstLayer.area);
   report.add("first_layer_holds", project.firstLayerHolds);
-  if (project.firstLayerHolds) return;
-  report.add("print_note",
-             "The first layer, " + toString(std::round(project.firstLayer.area)) +
-                 " mm\u00b2, is too small to hold the print: the project has a brim and support "
-                 "outside, or choose another build_axis.");
+  const std::string note = noteOn(project);
+  if (!note.empty()) report.add("print_note", note);
 }
 
 std::vector<ArchiveEntry> filesOf(const PrintProject& project, const Report& report) {

@@ -25,7 +25,8 @@ struct PrintJob {
 struct PrintProject {
   ProjectObject object;
   PrintSettings settings;
-  PlatePose pose; ///< model to plate
+  double wall = 0.0; ///< the least
+  PlatePose pose;    ///< model to plate
   FirstLayer firstLayer;
   bool firstLayerHolds = false;
   double mass = 0.0;                ///< of what is printed, g

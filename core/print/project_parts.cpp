@@ -166,9 +166,10 @@ std::string partsOfBambu(const ProjectObject& object) {
 }
 
 std::string configOfPrusaSlicer(const SlicerSettings& settings) {
-  std::string lines = "; written by massprops\n\n";
-  for (const auto& [key, value] : settings) lines += "; " + key + " = " + value + "\n";
-  return lines;
+  std::ostringstream lines;
+  lines << "; written by massprops\n\n";
+  for (const auto& [key, value] : settings) lines << "; " << key << " = " << value << '\n';
+  return lines.str();
 }
 
 std::string contentTypesXml() {

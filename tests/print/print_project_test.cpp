@@ -154,6 +154,16 @@ TEST(PrintProject, SaysWhereItsFirstLayerIsTooSmall) {
   EXPECT_TRUE(projectOf(hollowBox(), {}).firstLayerHolds);
 }
 
+TEST(PrintProject, SaysWhereAWallIsThinnerThanALine) {
+  PrintJob job = hollowBox();
+  Report report;
+  describe(projectOf(job, {}), report);
+  EXPECT_THROW(report.at("print_note"), std::out_of_range);
+  job.wall = 0.4;
+  describe(projectOf(job, {}), report);
+  EXPECT_NE(std::get<std::string>(report.at("print_note")).find("0.45 mm"), std::string::npos);
+}
+
 TEST(PrintProject, NamesEachPartsTriangles) {
   Options options;
   options.cavityInfill = 0.1;
