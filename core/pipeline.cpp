@@ -30,7 +30,7 @@ Result hollowed(const TriangleMesh& model, const Known& known, const Options& op
   Result result = deliver(prepared, foundation, found, options, bar);
   result.report = report(prepared, foundation, found, options);
   if (options.showAnswer) draw(prepared, foundation, found, options, bar, result);
-  if (!options.printFile.empty()) print(prepared, options, bar, result);
+  if (!options.printFile.empty()) print(prepared, found, options, bar, result);
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include "core/base/tolerances.h"
 #include "core/best/best_cavity.h"
 #include "core/goals/registry.h"
+#include "core/mesh/components.h"
 #include "core/model/frame.h"
 #include "core/model/mending.h"
 #include "core/optimum/foot_depth.h"
@@ -93,15 +94,6 @@ OffsetBounds boundsOfOuter(const Preparation& model, const OffsetField& field,
 
 Points representable(const Options& options, const Points& points) {
   return options.representable ? options.representable(points) : points;
-}
-
-/// Faces of an open surface.
-Faces withoutLids(const Solid& solid) {
-  std::vector<int> skin;
-  for (Eigen::Index f = 0; f < solid.faces().rows(); ++f) {
-    if (solid.isLid()[static_cast<std::size_t>(f)] == 0) skin.push_back(static_cast<int>(f));
-  }
-  return solid.faces()(skin, Eigen::all);
 }
 
 /// What is asked of a cavity, however it is found.
@@ -527,15 +519,17 @@ Report report(const Preparation& model, const Foundation& foundation, const Sear
                          found.cavity, options, stages);
 }
 
-void print(const Preparation& model, const Options& options, ProgressBar& bar, Result& result) {
+void print(const Preparation& model, const Search& found, const Options& options, ProgressBar& bar,
+           Result& result) {
   bar.show(98, "Project for the slicer");
   const Solid& solid = model.solid;
+  const bool isFound = found.cavity.status == CavityStatus::Found;
   PrintJob job;
   job.isOpen = model.posed.open.has_value();
   job.wall = model.posed.wall * model.posed.frame.length;
-  job.outer = result.outer ? *result.outer : TriangleMesh{solid.vertices(), solid.faces()};
-  job.cavity = result.inner.faces.rows() > 0 ? result.inner : solid.cavities();
-  if (job.isOpen && !result.outer) job.outer.faces = withoutLids(solid);
+  job.outer =
+      isFound && result.outer ? *result.outer : submesh(solid.vertices(), solid.skin()).mesh;
+  job.cavity = isFound ? result.inner : solid.cavities();
   const std::string name = std::filesystem::u8path(options.printFile).stem().u8string();
   const PrintProject project = printProject(job, options, name);
   describe(project, result.report);

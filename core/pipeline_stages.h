@@ -141,7 +141,8 @@ Report report(const Preparation& model, const Foundation& foundation, const Sear
 
 /// The project for a slicer, the keys of the report that speak of it among them.
 /// \throw std::runtime_error when its file cannot be written
-void print(const Preparation& model, const Options& options, ProgressBar& bar, Result& result);
+void print(const Preparation& model, const Search& found, const Options& options, ProgressBar& bar,
+           Result& result);
 
 /// The picture, or a key of the report that says why there is none.
 void draw(const Preparation& model, const Foundation& foundation, const Search& found,

@@ -58,6 +58,11 @@ const std::vector<Wish>& wishes() {
          const TriangleMesh model = pillar(false);
          o.keptSolid = {model.vertices, model.faces.topRows(8)};
        }},
+      {"foot",
+       [](Options& o) {
+         o.foot = FootCut::Given;
+         o.footDepth = 0.5;
+       }},
       {"mend", [](Options& o) { o.mend = true; }},
       {"print_file", [](Options& o) { o.printFile = projectFile(); }},
   };
