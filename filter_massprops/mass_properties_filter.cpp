@@ -1,5 +1,6 @@
 #include "filter_massprops/mass_properties_filter.h"
 
+#include "core/failure.h"
 #include "core/mesh/components.h"
 #include "core/pipeline.h"
 #include "core/vcg_conversion.h"
@@ -12,8 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
-#include <new>
 
 using namespace massprops;
 
@@ -224,13 +223,8 @@ std::string reasonOf(const Run& run) {
   try {
     run();
     return {};
-  } catch (const std::bad_alloc&) {
-    return "There is not enough memory for this model: use Remeshing, Simplification and "
-           "Reconstruction > Simplification: Quadric Edge Collapse Decimation, then run again.";
-  } catch (const std::exception& error) {
-    return *error.what() != '\0' ? error.what() : "The optimisation failed without a message.";
   } catch (...) {
-    return "The optimisation failed for an unknown reason.";
+    return sentenceOfFailure();
   }
 }
 

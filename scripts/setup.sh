@@ -19,6 +19,7 @@ packages="
   g++ cmake ninja-build
   libcgal-dev libeigen3-dev libspectra-dev libnlopt-dev libnlopt-cxx-dev
   libminizip-dev zlib1g-dev libpugixml-dev libstb-dev prusa-slicer
+  libcli11-dev nlohmann-json3-dev
   qtbase5-dev libqt5opengl5-dev libglew-dev libgl-dev
   libgtest-dev libbenchmark-dev libbullet-dev clang-format-14
   xvfb xauth libgl1-mesa-dri xdotool dbus-daemon dbus-bin at-spi2-core python3-pyatspi

@@ -1,0 +1,191 @@
+#include "command_line/hollowing.h"
+
+#include "command_line/mesh_files.h"
+#include "command_line/output_files.h"
+#include "command_line/report_json.h"
+#include "core/mesh/components.h"
+#include "core/parameters.h"
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+
+namespace massprops {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kPlaceholder = "{name}";
+
+std::vector<std::string> meshFilesOf(const Outputs& outputs) {
+  std::vector<std::string> files;
+  for (const std::string& file : {outputs.cavity, outputs.solid, outputs.answer}) {
+    if (!file.empty()) files.push_back(file);
+  }
+  return files;
+}
+
+std::vector<std::string> filesOf(const Outputs& outputs) {
+  std::vector<std::string> files = meshFilesOf(outputs);
+  if (!outputs.report.empty() && outputs.report != "-") files.push_back(outputs.report);
+  return files;
+}
+
+double diagonalOf(const TriangleMesh& mesh) {
+  if (mesh.vertices.rows() == 0) return 0.0;
+  return (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).norm();
+}
+
+Points asFloats(const Points& points) {
+  return points.cast<float>().cast<double>();
+}
+
+/// The model's own faces that stay solid, where there are any.
+TriangleMesh selectedPart(const MeshFile& model) {
+  if (model.selected.empty()) {
+    throw InvalidInput("No face is selected: of all formats only PLY keeps a selection, as MeshLab "
+                       "writes it with the faces' flags.");
+  }
+  return submesh(model.mesh.vertices, model.mesh.faces(model.selected, Eigen::all)).mesh;
+}
+
+Options optionsFor(const MeshFile& model, const Arguments& arguments) {
+  const auto textOf = [&](const std::string& name) {
+    const auto given = arguments.given.find(name);
+    return given == arguments.given.end() ? std::string() : given->second;
+  };
+  Options options = optionsFrom([&](const Parameter& parameter) -> std::optional<ParameterValue> {
+    const std::string text = textOf(parameter.name);
+    if (text.empty()) return {};
+    return valueFrom(parameter, text, diagonalOf(model.mesh));
+  });
+  if (textOf("keep_selected_solid") == "true") options.keptSolid = selectedPart(model);
+  options.showAnswer = !arguments.outputs.answer.empty();
+  return options;
+}
+
+ColouredMesh together(const ColouredMesh& a, const ColouredMesh& b) {
+  ColouredMesh both{assembled({a.mesh, b.mesh}), a.colours};
+  both.colours.insert(both.colours.end(), b.colours.begin(), b.colours.end());
+  return both;
+}
+
+void writeText(const std::string& path, const std::string& text) {
+  std::ofstream file(path);
+  if (!(file << text).flush()) throw std::runtime_error("'" + path + "' cannot be written.");
+}
+
+std::string grams(double mass) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.4g g", mass);
+  return text.data();
+}
+
+std::string summaryOf(const Report& report, bool solved) {
+  return std::string(solved ? "solved" : "NOT solved") + ", " +
+         grams(std::get<double>(report.at("mass_before"))) + " -> " +
+         grams(std::get<double>(report.at("mass_after"))) + ": " +
+         std::get<std::string>(report.at("message"));
+}
+
+/// Says what was asked for and is not there.
+std::string writeResult(const Result& result, const TriangleMesh& model, bool isShell,
+                        const Outputs& outputs, OutputFiles& files,
+                        const std::map<std::string, std::string>& places) {
+  std::string missing;
+  const auto drop = [&](const std::string& file, const char* why) {
+    files.drop(file);
+    missing += std::string(" (") + why + ": '" + file + "' is not written.)";
+  };
+  const bool hasCavity = result.inner.faces.rows() > 0;
+  if (!outputs.cavity.empty()) {
+    if (hasCavity) {
+      writeMesh(places.at(outputs.cavity), result.inner, result.innerWall);
+    } else {
+      drop(outputs.cavity, "There is no cavity");
+    }
+  }
+  if (!outputs.solid.empty()) {
+    const TriangleMesh& outer = result.outer ? *result.outer : model;
+    TriangleMesh solid = hasCavity ? assembled({outer, result.inner}) : outer;
+    if (isShell) solid = withoutEqualVertices(solid); // along its rims
+    writeMesh(places.at(outputs.solid), solid);
+  }
+  if (!outputs.answer.empty()) {
+    if (result.picture) {
+      writeMesh(places.at(outputs.answer),
+                together(result.picture->cutOpen, result.picture->marks));
+    } else {
+      drop(outputs.answer, "There is no picture");
+    }
+  }
+  const std::string report = toJson(result.report);
+  if (outputs.report == "-") {
+    std::cout << report << std::flush;
+  } else if (!outputs.report.empty()) {
+    writeText(places.at(outputs.report), report);
+  }
+  return missing;
+}
+
+} // namespace
+
+Outputs outputsFor(const Outputs& outputs, const std::string& model) {
+  const std::string name = fs::path(model).stem().string();
+  Outputs filled = outputs;
+  for (std::string* file : {&filled.cavity, &filled.solid, &filled.answer, &filled.report}) {
+    for (auto place = file->find(kPlaceholder); place != std::string::npos;
+         place = file->find(kPlaceholder, place + name.size())) {
+      file->replace(place, kPlaceholder.size(), name);
+    }
+  }
+  return filled;
+}
+
+void requireSensible(const Arguments& arguments) {
+  std::map<fs::path, std::string> taken; // → what it is of
+  const auto place = [](const std::string& path) {
+    return fs::weakly_canonical(fs::absolute(path));
+  };
+  for (const std::string& model : arguments.models) taken[place(model)] = model;
+  for (const std::string& model : arguments.models) {
+    const Outputs outputs = outputsFor(arguments.outputs, model);
+    for (const std::string& file : meshFilesOf(outputs)) requireMeshFormat(file);
+    for (const std::string& file : filesOf(outputs)) {
+      const auto [other, isNew] = taken.try_emplace(place(file), model);
+      if (isNew) continue;
+      throw InvalidInput("'" + file + "' would be written for '" + model + "', but is taken by '" +
+                         other->second +
+                         "': give each file a name of its own; {name} in it stands for the "
+                         "model's.");
+    }
+  }
+}
+
+Outcome hollow(const std::string& model, const Arguments& arguments, const Progress& progress) {
+  const Outputs outputs = outputsFor(arguments.outputs, model);
+  MeshFile file = readMesh(model);
+  OutputFiles files;
+  std::map<std::string, std::string> places;
+  for (const std::string& path : filesOf(outputs)) places[path] = files.add(path);
+
+  bool inDoubles = true;
+  for (const std::string& path : meshFilesOf(outputs)) inDoubles &= keepsDoubles(path);
+  // What is checked and reported is what the files hold.
+  if (!inDoubles) file.mesh.vertices = asFloats(file.mesh.vertices);
+  Options options = optionsFor(file, arguments);
+  if (!inDoubles) options.representable = asFloats;
+
+  const Result result = optimizeMassProperties(file.mesh, options, progress);
+  Outcome outcome;
+  outcome.solved = std::get<bool>(result.report.at("solved"));
+  outcome.line = summaryOf(result.report, outcome.solved) +
+                 writeResult(result, file.mesh, options.openSurface, outputs, files, places);
+  files.keep();
+  return outcome;
+}
+
+} // namespace massprops
