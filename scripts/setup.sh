@@ -15,7 +15,7 @@ if [ "${1:-}" = --thorough ]; then
 fi
 
 packages="
-  meshlab dpkg-dev file
+  meshlab dpkg-dev file make m4 man-db
   g++ cmake ninja-build
   libcgal-dev libeigen3-dev libspectra-dev libnlopt-dev libnlopt-cxx-dev
   libminizip-dev zlib1g-dev libpugixml-dev libstb-dev prusa-slicer
@@ -23,7 +23,9 @@ packages="
   qtbase5-dev libqt5opengl5-dev libglew-dev libgl-dev
   libgtest-dev libbenchmark-dev libbullet-dev clang-format-14
   xvfb xauth libgl1-mesa-dri xdotool dbus-daemon dbus-bin at-spi2-core python3-pyatspi
-  python3 python3-numpy python3-vtk9
+  python3 python3-numpy python3-vtk9 mkdocs mkdocs-material
+  python3-dev pybind11-dev python3-setuptools python3-pip python3-venv python3-pytest python3-meshio
+  python3-distributed
 "
 [ "$thorough" = OFF ] || packages="$packages clang-14 libclang-rt-14-dev clang-tidy-14"
 
@@ -52,7 +54,8 @@ fi
 
 scripts/fetch_meshlab_source.sh build/meshlab-source >/dev/null
 
-cmake --preset release -DMASSPROPS_WERROR=ON -DMASSPROPS_TEST_THOROUGHLY="$thorough" \
+cmake --preset release -DMASSPROPS_WERROR=ON -DMASSPROPS_LINK_STATICALLY=ON -DMASSPROPS_BUILD_PYTHON=ON \
+  -DMASSPROPS_TEST_THOROUGHLY="$thorough" \
   >build/configure.log 2>&1 || {
   cat build/configure.log >&2
   exit 1

@@ -1,0 +1,18 @@
+# What is needed at run time: with MASSPROPS_LINK_STATICALLY neither NLopt nor GMP nor MPFR, so that what was
+# built loads on machines without them.
+option(MASSPROPS_LINK_STATICALLY
+       "Link NLopt, GMP and MPFR in; builds them from Debian's sources at first" OFF)
+if(NOT MASSPROPS_LINK_STATICALLY)
+  return()
+endif()
+
+set(_static ${PROJECT_SOURCE_DIR}/build/static-libraries)
+execute_process(COMMAND ${PROJECT_SOURCE_DIR}/scripts/build_static_libraries.sh ${_static}
+                COMMAND_ERROR_IS_FATAL ANY)
+# The variables that CGAL and NLopt are found by.
+foreach(library IN ITEMS gmp gmpxx mpfr)
+  string(TOUPPER ${library} _prefix)
+  set(${_prefix}_INCLUDE_DIR ${_static}/include CACHE PATH "" FORCE)
+  set(${_prefix}_LIBRARIES ${_static}/lib/lib${library}.a CACHE FILEPATH "" FORCE)
+endforeach()
+set(NLopt_DIR ${_static}/lib/cmake/nlopt CACHE PATH "" FORCE)
