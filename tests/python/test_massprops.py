@@ -1,0 +1,201 @@
+"""The Python package: arrays in, arrays and a dictionary out."""
+import inspect
+import pathlib
+import pickle
+import re
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import massprops
+import measure
+from host import ROOT, SAMPLES, cube, read_ply
+
+LIGHT = {"goal": "Mass", "cavity_shape": "Offset surface"}
+
+
+@pytest.fixture(scope="module")
+def top():
+    return read_ply(SAMPLES / "tilted_ellipsoid_top.ply")
+
+
+@pytest.fixture(scope="module")
+def piece():
+    return read_ply(SAMPLES / "game_piece.ply")
+
+
+@pytest.fixture(scope="module")
+def spinning(top):
+    return massprops.hollow(*top, goal="Spin", inner_lower_bound=1.5)
+
+
+def test_the_report_is_about_the_arrays(top, spinning):
+    mass, centre, inertia = measure.hollow_body(top, tuple(spinning.cavity), 1.24)
+    report = spinning.report
+    assert report["mass_after"] == pytest.approx(mass, rel=1e-9)
+    np.testing.assert_allclose(report["center_of_mass_after"], centre, atol=1e-8)
+    np.testing.assert_allclose(report["inertia_tensor_after"], inertia, atol=1e-7 * np.trace(inertia))
+    assert report["solved"] is True and spinning.solved
+    assert report["goal"] == "Spin" and isinstance(report["message"], str)
+    assert report["inertia_tensor_after"].shape == (3, 3)
+
+
+def test_the_wall(top, spinning):
+    wall = measure.surface_distance(top, tuple(spinning.cavity))
+    assert wall >= 1.5
+    assert spinning.wall.shape == (len(spinning.cavity.vertices),)
+    assert spinning.wall.min() == pytest.approx(wall, rel=1e-3)
+
+
+def test_the_solid_is_closed(spinning):
+    assert measure.edges_match(spinning.solid.faces)
+    assert not spinning.outer_changed
+    assert measure.body(*spinning.solid, 0.00124)[0] == pytest.approx(spinning.report["mass_after"])
+
+
+def test_same_input_same_bytes_with_any_number_of_threads(piece):
+    runs = []
+    for count in (1, 3):
+        massprops.set_thread_count(count)
+        runs.append(massprops.hollow(*piece, **LIGHT).cavity.vertices.tobytes())
+    assert runs[0] == runs[1]
+    massprops.set_thread_count(2)
+
+
+def test_kinds_of_arrays(piece):
+    vertices, faces = piece
+    wanted = massprops.hollow(vertices, faces, **LIGHT).cavity.vertices
+    for points, triangles in ((vertices.tolist(), faces.tolist()),
+                              (np.asfortranarray(vertices), faces.astype(np.uint32)),
+                              (vertices[::-1][::-1], faces.astype(np.int64))):
+        np.testing.assert_array_equal(massprops.hollow(points, triangles, **LIGHT).cavity.vertices, wanted)
+
+
+def test_lengths(piece):
+    vertices = piece[0]
+    diagonal = np.linalg.norm(np.ptp(vertices, axis=0))
+    share = massprops.hollow(*piece, inner_lower_bound="2%", **LIGHT)
+    length = massprops.hollow(*piece, inner_lower_bound=0.02 * diagonal, **LIGHT)
+    assert share.report["min_wall"] == pytest.approx(length.report["min_wall"], rel=1e-9)
+    assert share.report["min_wall"] >= 0.02 * diagonal * (1 - 1e-12)
+
+
+def test_single_precision_is_what_a_file_of_floats_holds(piece):
+    result = massprops.hollow(*piece, single_precision=True, **LIGHT)
+    for mesh in (result.cavity, result.outer):
+        np.testing.assert_array_equal(mesh.vertices, mesh.vertices.astype(np.float32))
+
+
+def test_faces_that_stay_solid(top):
+    vertices, faces = top
+    upper = vertices[faces[:, 0], 2] > 10
+    for kept in (upper, np.flatnonzero(upper)):
+        result = massprops.hollow(vertices, faces, keep_solid=kept, solid_depth=5, goal="Spin",
+                                  inner_lower_bound=1.5)
+        apart = measure.surface_distance((vertices, faces[upper]), tuple(result.cavity))
+        assert apart >= 5 - 1e-9
+        assert result.report["solid_depth"] == pytest.approx(apart)
+
+
+def test_pictures(piece):
+    pictures = massprops.hollow(*piece, pictures=True, **LIGHT).pictures
+    assert pictures[0].name == "cut open"
+    for picture in pictures:
+        assert picture.colours.shape == picture.vertices.shape
+        assert picture.colours.dtype == np.uint8
+
+
+def test_progress_and_other_threads(top):
+    seen, ticks, ended = [], [], threading.Event()
+
+    def tick():
+        while not ended.wait(0.001):
+            ticks.append(time.monotonic())
+
+    other = threading.Thread(target=tick)
+    other.start()
+    massprops.hollow(*top, goal="Spin", progress=lambda percent, stage: seen.append((percent, stage)))
+    ended.set()
+    other.join()
+    assert [p for p, _ in seen] == sorted(p for p, _ in seen)
+    assert seen[-1] == (100, "Done")
+    assert len(ticks) > 10, "the interpreter's lock is released"
+
+
+def test_an_exception_of_the_callback_ends_the_run(top):
+    class Enough(Exception):
+        pass
+
+    def stop(percent, _):
+        if percent > 20:
+            raise Enough("now")
+
+    with pytest.raises(Enough, match="now"):
+        massprops.hollow(*top, goal="Spin", progress=stop)
+
+
+@pytest.mark.parametrize("change, sentence", [
+    ({"density": -1}, "density must be greater than 0"),
+    ({"density": "light"}, "give a number"),
+    ({"density": [1]}, "'density' cannot be"),
+    ({"goal": "Stnad"}, "one of Stand, Spin"),
+    ({"goal": 99}, "entries 0 to"),
+    ({"basis_k": 36.5}, "'basis_k' cannot be 36.5"),
+    ({"mend": "maybe"}, "true or false"),
+    ({"keep_solid": []}, "keep_solid must be"),
+    ({"keep_solid": [10**6]}, "keep_solid must be"),
+    ({"vertices": np.zeros((3, 2))}, "3 coordinates"),
+    ({"vertices": [["a"] * 3]}, "must be numbers"),
+    ({"faces": np.zeros((3, 4), int)}, "cut larger faces"),
+    ({"faces": np.zeros((3, 3))}, "whole numbers"),
+    ({"faces": [[0, 1, 10**6]]}, "indices of vertices"),
+    ({"faces": []}, "faces"),
+])
+def test_refusals(piece, change, sentence):
+    arguments = {"vertices": piece[0], "faces": piece[1], **LIGHT, **change}
+    with pytest.raises(massprops.InvalidInput, match=re.escape(sentence)):
+        massprops.hollow(**arguments)
+
+
+def test_an_open_surface_is_refused_or_a_shell():
+    vertices, faces = cube(8, 40.0)
+    opened = faces[vertices[faces][:, :, 2].min(axis=1) < 39.9]
+    with pytest.raises(ValueError, match="open_surface"):
+        massprops.hollow(vertices, opened)
+    assert massprops.hollow(vertices, opened, open_surface=True, **LIGHT).report["solved"]
+
+
+def test_unknown_parameters_are_mistakes(piece):
+    with pytest.raises(TypeError, match="is it 'inner_lower_bound'"):
+        massprops.hollow(*piece, inner_lowerbound=1)
+    with pytest.raises(TypeError, match="'keep_solid' here"):
+        massprops.hollow(*piece, keep_selected_solid=True)
+
+
+def test_results_travel_between_processes(spinning):
+    again = pickle.loads(pickle.dumps(spinning))
+    np.testing.assert_array_equal(again.cavity.vertices, spinning.cavity.vertices)
+    assert again.report["message"] == spinning.report["message"]
+
+
+def test_help_and_hints_have_every_parameter():
+    documented = (ROOT / "README.md").read_text()
+    stub = (pathlib.Path(massprops.__file__).parent / "__init__.pyi").read_text()
+    compile(stub, "__init__.pyi", "exec")
+    for row in massprops.parameters():
+        assert f"    {row['name']}: {row['type']} = " in inspect.getdoc(massprops.hollow).replace(
+            "\n", "\n    ")
+        assert f"    {row['name']}: {row['type']} | None" in stub
+        assert f"`{row['name']}`" in documented
+    for name in massprops.__all__:
+        assert re.search(rf"\b{name}\b", stub), name
+        assert getattr(massprops, name).__doc__
+
+
+def test_the_keys_are_the_documented_ones(spinning):
+    documented = set(re.findall(r"`([a-z0-9_…]+)`", (ROOT / "docs/report.md").read_text()))
+    endings = tuple(key[1:] for key in documented if key.startswith("…"))
+    for key in spinning.report:
+        assert key in documented or key.endswith(endings), key
