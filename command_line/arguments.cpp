@@ -94,17 +94,8 @@ void addParameter(CLI::App& app, const Parameter& parameter, Arguments& argument
   option->group(parameter.advanced ? heading + " (advanced)" : heading);
 }
 
-} // namespace
-
-std::string optionOf(const std::string& parameterName) {
-  std::string name = "--" + parameterName;
-  std::replace(name.begin(), name.end(), '_', '-');
-  return name;
-}
-
-Arguments parse(int argc, const char* const* argv) {
-  Arguments arguments;
-  CLI::App app(kAbout, "massprops");
+/// All options write into `arguments`.
+void define(CLI::App& app, Arguments& arguments) {
   app.footer(kFooter);
   app.set_version_flag("--version", std::string("massprops ") + MASSPROPS_VERSION);
   app.add_option("model", arguments.models, "Models to hollow")->type_name("FILE");
@@ -124,13 +115,50 @@ Arguments parse(int argc, const char* const* argv) {
       ->check(CLI::Range(1, 1024).description(""));
   app.add_flag("--quiet", arguments.quiet, "No line for each model, no progress");
   app.add_option("--describe", arguments.describe,
-                 "Describe all parameters instead of a run, in JSON")
-      ->type_name("json")
-      ->check(CLI::IsMember({"json"}).description(""));
+                 "Instead of a run: all parameters in JSON, the manual's page, or what bash "
+                 "completes words by")
+      ->type_name("json|man|bash")
+      ->check(CLI::IsMember({"json", "man", "bash"}).description(""));
   for (const Parameter& parameter : parameterTable()) {
     // The answer is a file here.
     if (parameter.name != "show_layers") addParameter(app, parameter, arguments);
   }
+}
+
+} // namespace
+
+std::string optionOf(const std::string& parameterName) {
+  std::string name = "--" + parameterName;
+  std::replace(name.begin(), name.end(), '_', '-');
+  return name;
+}
+
+std::string programSummary() {
+  return kAbout;
+}
+
+std::string programNotes() {
+  return kFooter;
+}
+
+std::vector<OptionHelp> programOptions() {
+  Arguments unused;
+  CLI::App app;
+  define(app, unused);
+  std::vector<OptionHelp> options;
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->get_positional()) continue;
+    const bool isSwitch = option->get_expected_max() == 0;
+    options.push_back({option->get_name(false, true), isSwitch ? "" : option->get_type_name(),
+                       option->get_description(), option->get_group()});
+  }
+  return options;
+}
+
+Arguments parse(int argc, const char* const* argv) {
+  Arguments arguments;
+  CLI::App app(kAbout, "massprops");
+  define(app, arguments);
 
   try {
     app.parse(argc, argv);

@@ -22,7 +22,7 @@ struct Arguments {
   std::map<std::string, std::string> given; ///< parameter's name → text
   int jobs = 1;
   bool quiet = false;
-  std::string describe; ///< a form in which the parameters are to be described, instead of a run
+  std::string describe; ///< a form of description.h, instead of a run
 };
 
 /// The end of the program that parsing itself asks for: help, version, or a mistake.
@@ -32,6 +32,19 @@ struct ParsedEnd {
 
 /// Prints help and mistakes. \throw ParsedEnd
 Arguments parse(int argc, const char* const* argv);
+
+/// An option as the help has it.
+struct OptionHelp {
+  std::string names;       ///< -o,--cavity
+  std::string placeholder; ///< FILE; empty for a switch
+  std::string help;
+  std::string heading;
+};
+
+/// What `massprops` is, and all of its options in the order of the help.
+std::string programSummary();
+std::string programNotes();
+std::vector<OptionHelp> programOptions();
 
 /// The option of a parameter: inner_lower_bound → --inner-lower-bound.
 std::string optionOf(const std::string& parameterName);

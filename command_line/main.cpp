@@ -1,8 +1,8 @@
 // massprops: the filter without MeshLab.
 #include "command_line/arguments.h"
+#include "command_line/description.h"
 #include "command_line/hollowing.h"
 #include "command_line/jobs.h"
-#include "command_line/report_json.h"
 #include "core/base/parallel.h"
 #include "core/failure.h"
 
@@ -65,7 +65,7 @@ int main(int argc, char** argv) {
   try {
     const Arguments arguments = parse(argc, argv);
     if (!arguments.describe.empty()) {
-      std::cout << parametersAsJson();
+      std::cout << described(arguments.describe);
       return kSolved;
     }
     return runAll(arguments);

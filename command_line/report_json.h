@@ -1,4 +1,4 @@
-// The report and the table of parameters as JSON.
+// The report as JSON.
 #pragma once
 
 #include "core/base/report.h"
@@ -10,8 +10,5 @@ namespace massprops {
 /// One object with the keys of docs/report.md in their order: points as arrays of 3, tensors as 3
 /// arrays of 3, null for what is infinite or no number. Ends with a line's end.
 std::string toJson(const Report& report);
-
-/// One object a parameter, with all that core/parameters.h says of it.
-std::string parametersAsJson();
 
 } // namespace massprops

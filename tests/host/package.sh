@@ -1,6 +1,6 @@
 #!/bin/sh
 # The plugin is installed to where MeshLab looks; the Debian package names what it needs, brings the
-# plugin and its licence and nothing else, and the plugin in it works. As root it is really installed,
+# plugin, the program and its licence and nothing else, and both work. As root it is really installed,
 # used by the system's meshlabserver, and removed again.
 #
 # usage: package.sh <cmake> <cpack> <build folder>
@@ -28,13 +28,16 @@ installed=$(cd "$work/installed" && find . -type f)
 package=$(find "$work" -maxdepth 1 -name '*.deb')
 dpkg-deb --info "$package"
 depends=", $(dpkg-deb --field "$package" Depends), "
-for one in "meshlab (= $(dpkg-query -W -f '${Version}' meshlab))" 'libnlopt0' 'libgmp10' 'libmpfr6' \
-           'libqt5core5a' 'libc6'; do
+for one in "meshlab (= $(dpkg-query -W -f '${Version}' meshlab))" 'libqt5core5a' 'libc6'; do
   case $depends in *", $one, "* | *", $one ("*) ;; *) fail "the package does not depend on $one" ;; esac
 done
+if grep -q 'MASSPROPS_LINK_STATICALLY:BOOL=ON' "$build/CMakeCache.txt"; then
+  case $depends in *libnlopt* | *libgmp* | *libmpfr*) fail "the package depends on what is linked in" ;; esac
+fi
 ! dpkg-deb --fsys-tarfile "$package" | tar t | grep -q local || fail "the package claims /usr/local"
 contents=$(dpkg-deb --fsys-tarfile "$package" | tar t | grep -v "/$" | sort)
-expected=$(printf '%s\n' ".$plugin" ./usr/share/doc/meshlab-massprops/copyright | sort)
+expected=$(printf '%s\n' ".$plugin" ./usr/bin/massprops ./usr/share/man/man1/massprops.1 \
+  ./usr/share/bash-completion/completions/massprops ./usr/share/doc/meshlab-massprops/copyright | sort)
 [ "$contents" = "$expected" ] || fail "the package contains $contents"
 
 mkdir -p "$work/host/plugins"
@@ -43,6 +46,14 @@ cp "$work/tree$plugin" "$work/host/plugins/"
 MASSPROPS_PLUGIN=$work/host/plugins/libfilter_massprops.so "$root/scripts/meshlabserver.sh" \
   -i "$sample" -o "$work/inner.ply" -l x -s "$script" >"$work/log" 2>&1 || true
 solved || { cat "$work/log"; fail "the plugin in the package does not work"; }
+"$work/tree/usr/bin/massprops" "$sample" --goal Spin --quiet || fail "the program in the package does not work"
+LC_ALL=C.UTF-8 MANWIDTH=80 man --warnings -l "$work/tree/usr/share/man/man1/massprops.1" 2>"$work/warnings" |
+  grep -q -- '--inner-lower-bound' || fail "the page of the manual says nothing of a parameter"
+[ ! -s "$work/warnings" ] || fail "the page of the manual: $(cat "$work/warnings")"
+completed=$(bash -c '. "$1"; COMP_WORDS=(massprops --goal Sta); COMP_CWORD=2; _massprops
+  printf "%s\n" "${COMPREPLY[@]}"' - "$work/tree/usr/share/bash-completion/completions/massprops")
+[ "$completed" = "$(printf '%s\n' Stand 'Stand\ empty\ and\ filled' 'Stand\ (published)')" ] ||
+  fail "bash completes Sta to $completed"
 
 if [ "$(id -u)" -ne 0 ] || dpkg-query -W meshlab-massprops >/dev/null 2>&1 || [ -e "$plugin" ]; then
   echo "Not root, or the plugin is installed already: not installed by this test."
