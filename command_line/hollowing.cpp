@@ -28,10 +28,31 @@ std::vector<std::string> meshFilesOf(const Outputs& outputs) {
   return files;
 }
 
-std::vector<std::string> filesOf(const Outputs& outputs) {
-  std::vector<std::string> files = meshFilesOf(outputs);
-  if (!outputs.report.empty() && outputs.report != "-") files.push_back(outputs.report);
+/// What parameters write, by their names.
+std::map<std::string, std::string> parameterFilesOf(const Arguments& arguments) {
+  std::map<std::string, std::string> files;
+  for (const Parameter& parameter : parameterTable()) {
+    const auto given = arguments.given.find(parameter.name);
+    if (parameter.kind == ParameterKind::File && given != arguments.given.end())
+      files.insert(*given);
+  }
   return files;
+}
+
+std::vector<std::string> filesOf(const Arguments& arguments) {
+  std::vector<std::string> files = meshFilesOf(arguments.outputs);
+  const std::string& report = arguments.outputs.report;
+  if (!report.empty() && report != "-") files.push_back(report);
+  for (const auto& [name, file] : parameterFilesOf(arguments)) files.push_back(file);
+  return files;
+}
+
+std::string filledIn(std::string text, const std::string& name) {
+  for (auto place = text.find(kPlaceholder); place != std::string::npos;
+       place = text.find(kPlaceholder, place + name.size())) {
+    text.replace(place, kPlaceholder.size(), name);
+  }
+  return text;
 }
 
 double diagonalOf(const TriangleMesh& mesh) {
@@ -91,22 +112,11 @@ std::string summaryOf(const Report& report, bool solved) {
          std::get<std::string>(report.at("message"));
 }
 
-/// Says what was asked for and is not there.
-std::string writeResult(const Result& result, const TriangleMesh& model, bool isShell,
-                        const Outputs& outputs, OutputFiles& files,
-                        const std::map<std::string, std::string>& places) {
-  std::string missing;
-  const auto drop = [&](const std::string& file, const char* why) {
-    files.drop(file);
-    missing += std::string(" (") + why + ": '" + file + "' is not written.)";
-  };
+void writeResult(const Result& result, const TriangleMesh& model, const Outputs& outputs,
+                 bool isShell, const std::map<std::string, std::string>& places) {
   const bool hasCavity = result.inner.faces.rows() > 0;
-  if (!outputs.cavity.empty()) {
-    if (hasCavity) {
-      writeMesh(places.at(outputs.cavity), result.inner, result.innerWall);
-    } else {
-      drop(outputs.cavity, "There is no cavity");
-    }
+  if (!outputs.cavity.empty() && hasCavity) {
+    writeMesh(places.at(outputs.cavity), result.inner, result.innerWall);
   }
   if (!outputs.solid.empty()) {
     const TriangleMesh& outer = result.outer ? *result.outer : model;
@@ -114,13 +124,8 @@ std::string writeResult(const Result& result, const TriangleMesh& model, bool is
     if (isShell) solid = withoutEqualVertices(solid); // along its rims
     writeMesh(places.at(outputs.solid), solid);
   }
-  if (!outputs.answer.empty()) {
-    if (result.picture) {
-      writeMesh(places.at(outputs.answer),
-                together(result.picture->cutOpen, result.picture->marks));
-    } else {
-      drop(outputs.answer, "There is no picture");
-    }
+  if (!outputs.answer.empty() && result.picture) {
+    writeMesh(places.at(outputs.answer), together(result.picture->cutOpen, result.picture->marks));
   }
   const std::string report = toJson(result.report);
   if (outputs.report == "-") {
@@ -128,19 +133,19 @@ std::string writeResult(const Result& result, const TriangleMesh& model, bool is
   } else if (!outputs.report.empty()) {
     writeText(places.at(outputs.report), report);
   }
-  return missing;
 }
 
 } // namespace
 
-Outputs outputsFor(const Outputs& outputs, const std::string& model) {
+Arguments argumentsFor(const Arguments& arguments, const std::string& model) {
   const std::string name = fs::path(model).stem().string();
-  Outputs filled = outputs;
-  for (std::string* file : {&filled.cavity, &filled.solid, &filled.answer, &filled.report}) {
-    for (auto place = file->find(kPlaceholder); place != std::string::npos;
-         place = file->find(kPlaceholder, place + name.size())) {
-      file->replace(place, kPlaceholder.size(), name);
-    }
+  Arguments filled = arguments;
+  Outputs& outputs = filled.outputs;
+  for (std::string* file : {&outputs.cavity, &outputs.solid, &outputs.answer, &outputs.report}) {
+    *file = filledIn(*file, name);
+  }
+  for (const auto& [parameter, file] : parameterFilesOf(arguments)) {
+    filled.given[parameter] = filledIn(file, name);
   }
   return filled;
 }
@@ -152,9 +157,9 @@ void requireSensible(const Arguments& arguments) {
   };
   for (const std::string& model : arguments.models) taken[place(model)] = model;
   for (const std::string& model : arguments.models) {
-    const Outputs outputs = outputsFor(arguments.outputs, model);
-    for (const std::string& file : meshFilesOf(outputs)) requireMeshFormat(file);
-    for (const std::string& file : filesOf(outputs)) {
+    const Arguments own = argumentsFor(arguments, model);
+    for (const std::string& file : meshFilesOf(own.outputs)) requireMeshFormat(file);
+    for (const std::string& file : filesOf(own)) {
       const auto [other, isNew] = taken.try_emplace(place(file), model);
       if (isNew) continue;
       throw InvalidInput("'" + file + "' would be written for '" + model + "', but is taken by '" +
@@ -165,13 +170,17 @@ void requireSensible(const Arguments& arguments) {
   }
 }
 
-Outcome hollow(const std::string& model, const Arguments& arguments, const Progress& progress) {
-  const Outputs outputs = outputsFor(arguments.outputs, model);
+Outcome hollow(const std::string& model, const Arguments& all, const Progress& progress) {
+  Arguments arguments = argumentsFor(all, model);
   MeshFile file = readMesh(model);
   OutputFiles files;
   std::map<std::string, std::string> places;
-  for (const std::string& path : filesOf(outputs)) places[path] = files.add(path);
+  for (const std::string& path : filesOf(arguments)) places[path] = files.add(path);
+  for (const auto& [parameter, path] : parameterFilesOf(arguments)) {
+    arguments.given[parameter] = places.at(path);
+  }
 
+  const Outputs& outputs = arguments.outputs;
   bool inDoubles = true;
   for (const std::string& path : meshFilesOf(outputs)) inDoubles &= keepsDoubles(path);
   // What is checked and reported is what the files hold.
@@ -180,10 +189,13 @@ Outcome hollow(const std::string& model, const Arguments& arguments, const Progr
   if (!inDoubles) options.representable = asFloats;
 
   const Result result = optimizeMassProperties(file.mesh, options, progress);
+  writeResult(result, file.mesh, outputs, options.openSurface, places);
   Outcome outcome;
   outcome.solved = std::get<bool>(result.report.at("solved"));
-  outcome.line = summaryOf(result.report, outcome.solved) +
-                 writeResult(result, file.mesh, options.openSurface, outputs, files, places);
+  outcome.line = summaryOf(result.report, outcome.solved);
+  for (const auto& [path, unfinished] : places) {
+    if (!files.isWritten(path)) outcome.line += " ('" + path + "' is not written: there is none.)";
+  }
   files.keep();
   return outcome;
 }

@@ -9,8 +9,8 @@
 
 namespace massprops {
 
-/// The files of one model: `{name}` filled in.
-Outputs outputsFor(const Outputs& outputs, const std::string& model);
+/// What is asked for of one model: `{name}` filled in.
+Arguments argumentsFor(const Arguments& arguments, const std::string& model);
 
 /// What is wrong before any model is looked at: unknown formats, two models for one file, a result
 /// in a model's place. \throw InvalidInput

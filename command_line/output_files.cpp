@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <system_error>
 
 namespace massprops {
@@ -15,33 +14,35 @@ namespace fs = std::filesystem;
 
 OutputFiles::~OutputFiles() {
   std::error_code ignored;
-  for (const File& file : files_) fs::remove(file.unfinished, ignored);
+  for (const File& file : files_) fs::remove_all(fs::path(file.unfinished).parent_path(), ignored);
 }
 
 std::string OutputFiles::add(const std::string& path) {
-  const fs::path whole(path);
-  const std::string name =
-      whole.stem().string() + ".part" + std::to_string(getpid()) + whole.extension().string();
-  const std::string unfinished = (whole.parent_path() / name).string();
-  if (fs::is_directory(whole)) throw InvalidInput("'" + path + "' is a folder: name a file in it.");
-  if (!std::ofstream(unfinished)) {
-    throw InvalidInput("'" + path + "' cannot be written: see that its folder is there.");
+  if (fs::is_directory(path)) throw InvalidInput("'" + path + "' is a folder: name a file in it.");
+  const fs::path folder =
+      fs::path(path).parent_path() / (".massprops.part" + std::to_string(getpid()));
+  const fs::path unfinished = folder / fs::path(path).filename();
+  std::error_code failure;
+  fs::create_directory(folder, failure);
+  if (failure) {
+    throw InvalidInput("'" + path +
+                       "' cannot be written: choose a folder that exists and that you "
+                       "may write to.");
   }
-  files_.push_back({unfinished, path});
-  return unfinished;
+  files_.push_back({unfinished.string(), path});
+  return unfinished.string();
 }
 
-void OutputFiles::drop(const std::string& path) {
-  const auto file =
-      std::find_if(files_.begin(), files_.end(), [&](const File& one) { return one.path == path; });
-  if (file == files_.end()) return;
-  fs::remove(file->unfinished);
-  files_.erase(file);
+bool OutputFiles::isWritten(const std::string& path) const {
+  return std::any_of(files_.begin(), files_.end(), [&](const File& file) {
+    return file.path == path && fs::exists(file.unfinished);
+  });
 }
 
 void OutputFiles::keep() {
-  for (const File& file : files_) fs::rename(file.unfinished, file.path);
-  files_.clear();
+  for (const File& file : files_) {
+    if (fs::exists(file.unfinished)) fs::rename(file.unfinished, file.path);
+  }
 }
 
 } // namespace massprops

@@ -14,12 +14,12 @@ public:
   /// Takes away what was not kept.
   ~OutputFiles();
 
-  /// Where to write what is to become `path`: a file beside it with the same suffix, which is there
-  /// and empty. \throw InvalidInput when it cannot be written
+  /// Where to write what is to become `path`: a file of the same name in a folder beside it.
+  /// \throw InvalidInput when nothing can be written there
   std::string add(const std::string& path);
-  /// What was added under that name is not wanted.
-  void drop(const std::string& path);
-  /// Gives the files their names. \throw std::runtime_error when that fails
+  /// Whether something was written there since.
+  bool isWritten(const std::string& path) const;
+  /// Puts the files that were written into their places. \throw std::runtime_error when that fails
   void keep();
 
 private:

@@ -39,11 +39,14 @@ ParameterValue valueFrom(const Parameter& parameter, const py::handle& value, do
       if (!py::isinstance<py::bool_>(value)) break;
       return value.cast<bool>();
     case ParameterKind::Whole:
-    case ParameterKind::Choice: return value.cast<int>();
+    case ParameterKind::Choice:
+      return value.cast<int>();
     case ParameterKind::Number:
     case ParameterKind::Share:
-    case ParameterKind::Length: return value.cast<double>();
-    case ParameterKind::File: return py::str(value).cast<std::string>();
+    case ParameterKind::Length:
+      return value.cast<double>();
+    case ParameterKind::File:
+      return py::str(value).cast<std::string>();
     }
   } catch (const py::cast_error&) {
     // Refused below.
@@ -87,7 +90,10 @@ private:
 };
 
 struct ReportToPython {
-  template <class Value> py::object operator()(const Value& value) const { return py::cast(value); }
+  template <class Value>
+  py::object operator()(const Value& value) const {
+    return py::cast(value);
+  }
 };
 
 py::dict toPython(const Report& report) {
@@ -149,13 +155,18 @@ py::tuple hollow(Points vertices, const Faces& faces, const py::dict& parameters
 
 const char* typeOf(ParameterKind kind) {
   switch (kind) {
-  case ParameterKind::Switch: return "bool";
-  case ParameterKind::Whole: return "int";
+  case ParameterKind::Switch:
+    return "bool";
+  case ParameterKind::Whole:
+    return "int";
   case ParameterKind::Number:
-  case ParameterKind::Share: return "float";
-  case ParameterKind::Length: return "float | str";
+  case ParameterKind::Share:
+    return "float";
+  case ParameterKind::Length:
+    return "float | str";
   case ParameterKind::Choice:
-  case ParameterKind::File: return "str";
+  case ParameterKind::File:
+    return "str";
   }
   return "";
 }
@@ -165,8 +176,8 @@ py::list parameters() {
   for (const Parameter& parameter : parameterTable()) {
     py::object standard = py::cast(parameter.standard);
     if (parameter.kind == ParameterKind::Choice) {
-      standard = py::cast(
-          parameter.entries[static_cast<std::size_t>(std::get<int>(parameter.standard))]);
+      standard =
+          py::cast(parameter.entries[static_cast<std::size_t>(std::get<int>(parameter.standard))]);
     } else if (parameter.kind == ParameterKind::Length) {
       const double share = std::get<double>(parameter.standard);
       standard = share == 0.0 ? standard : py::cast(toString(100.0 * share) + "%");

@@ -5,6 +5,7 @@ import pty
 import re
 import subprocess
 import unittest
+import zipfile
 
 import numpy as np
 
@@ -94,6 +95,13 @@ class FilesTest(ProgramTest):
         ours = read(self.folder / "ours.stl")
         np.testing.assert_array_equal(ours[0][ours[1]], theirs[0][theirs[1]])
 
+    def test_a_project_for_the_slicer(self):
+        self.run_program(PIECE, *LIGHT, "--print-file", "{name}.3mf")
+        self.assertEqual(self.files(), ["game_piece.3mf"])
+        with zipfile.ZipFile(self.folder / "game_piece.3mf") as project:
+            self.assertIsNone(project.testzip())
+            self.assertIn("3D/3dmodel.model", project.namelist())
+
     def test_the_answer_has_colours(self):
         self.run_program(PIECE, *LIGHT, "--answer", "answer.ply")
         vertex = ply_elements(self.folder / "answer.ply")["vertex"]
@@ -169,7 +177,8 @@ class EndingsTest(ProgramTest):
                 ([PIECE, "--colour", "red"], "--colour"),
                 ([PIECE, "--jobs", "0"], "--jobs"),
                 ([PIECE, "-o", "cavity.3mf"], "no known format"),
-                ([PIECE, "-o", "missing/cavity.ply"], "its folder"),
+                ([PIECE, "-o", "missing/cavity.ply"], "a folder that exists"),
+                ([PIECE, "--print-file", "project.stl"], ".3mf"),
                 ([PIECE, "-o", self.folder], "format"),
                 ([mine, "-o", mine], "taken by"),
                 ([PIECE, "-o", "a.ply", "--solid", "./a.ply"], "taken by"),

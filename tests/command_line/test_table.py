@@ -35,9 +35,9 @@ class TableTest(ProgramTest):
 
     def test_readme_explains_every_parameter_and_its_default(self):
         text = (ROOT / "README.md").read_text()
-        section = text[text.index("\n## Parameters"):text.index("\n### Goals")]
+        table = re.search(r"^\| name \|.*?\n\n", text, re.MULTILINE | re.DOTALL).group()
         explained = {}
-        for line in section.splitlines():
+        for line in table.splitlines():
             if line.startswith("| `"):
                 names, default = line.split("|")[1:3]
                 names = re.findall(r"`(\w+)`", names)

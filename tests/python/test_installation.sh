@@ -5,6 +5,7 @@
 # usage: test_installation.sh <build folder>
 set -eu
 build=$1
+unset PYTHONPATH
 root=$(cd "$(dirname "$0")/../.." && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
