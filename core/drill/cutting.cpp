@@ -1,0 +1,132 @@
+#include "core/drill/cutting.h"
+
+#include "core/mesh/cgal_mesh.h"
+#include "core/mesh/components.h"
+#include "core/mesh/connectivity.h"
+#include "core/mesh/degenerate_faces.h"
+#include "core/mesh/signed_volume.h"
+#include "core/query/self_intersection.h"
+
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/corefinement.h>
+
+#include <cstddef>
+#include <utility>
+
+namespace massprops {
+namespace {
+
+using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
+using Mesh = CGAL::Surface_mesh<Exact::Point_3>;
+
+TriangleMesh rounded(Mesh& mesh, const std::function<Points(const Points&)>& representable) {
+  mesh.collect_garbage();
+  TriangleMesh result{Points(static_cast<Eigen::Index>(mesh.number_of_vertices()), 3),
+                      Faces(static_cast<Eigen::Index>(mesh.number_of_faces()), 3)};
+  for (const auto v : mesh.vertices()) {
+    const Exact::Point_3& p = mesh.point(v);
+    result.vertices.row(static_cast<Eigen::Index>(v.idx())) << CGAL::to_double(CGAL::exact(p.x())),
+        CGAL::to_double(CGAL::exact(p.y())), CGAL::to_double(CGAL::exact(p.z()));
+  }
+  for (const auto f : mesh.faces()) {
+    result.faces.row(static_cast<Eigen::Index>(f.idx())) = cornersOf(mesh, f);
+  }
+  result.vertices = representable(result.vertices);
+  return result;
+}
+
+Eigen::Index eulerCharacteristic(const TriangleMesh& mesh) {
+  // Every edge has two faces.
+  return mesh.vertices.rows() - mesh.faces.rows() / 2;
+}
+
+std::size_t componentCount(const TriangleMesh& mesh) {
+  return connectedComponents(mesh.vertices.rows(), mesh.faces).size();
+}
+
+bool isSound(const TriangleMesh& mesh) {
+  if (mesh.faces.rows() == 0) return false;
+  const EdgeCounts edges = countEdges(mesh.vertices.rows(), mesh.faces);
+  return edges.boundary + edges.nonManifold + edges.incoherent == 0 &&
+         facesWithoutArea(mesh.vertices, mesh.faces).empty() &&
+         selfIntersectingFaces(mesh.vertices, mesh.faces).empty();
+}
+
+/// The pieces that are left of so many when each hole joins a cavity with the body around it.
+struct Expected {
+  Eigen::Index euler;
+  std::size_t components;
+};
+
+class Cutter {
+public:
+  Cutter(const TriangleMesh& material, const std::vector<Hole>& holes, Expected expected,
+         const std::function<Points(const Points&)>& representable)
+      : material_(material), holes_(holes), expected_(expected), representable_(representable) {}
+
+  std::optional<TriangleMesh> body(double turn) const {
+    Mesh mesh = surfaceMesh<Mesh>(material_.vertices, material_.faces);
+    Mesh drills = drillsFor(0.0, turn);
+    if (!CGAL::Polygon_mesh_processing::corefine_and_compute_difference(mesh, drills, mesh)) {
+      return {};
+    }
+    TriangleMesh result = rounded(mesh, representable_);
+    const bool isAsExpected = eulerCharacteristic(result) == expected_.euler &&
+                              componentCount(result) == expected_.components;
+    return isAsExpected && isSound(result) ? std::optional(std::move(result)) : std::nullopt;
+  }
+
+  std::optional<std::vector<TriangleMesh>> plugs(double clearance, double turn) const {
+    Mesh mesh = surfaceMesh<Mesh>(material_.vertices, material_.faces);
+    Mesh drills = drillsFor(clearance, turn);
+    if (!CGAL::Polygon_mesh_processing::corefine_and_compute_intersection(mesh, drills, drills)) {
+      return {};
+    }
+    const TriangleMesh all = rounded(drills, representable_);
+    if (!isSound(all)) return {};
+    std::vector<TriangleMesh> result;
+    for (Submesh& part : componentMeshes(all.vertices, all.faces)) {
+      if (eulerCharacteristic(part.mesh) != 2) return {};
+      result.push_back(std::move(part.mesh));
+    }
+    return result.size() == holes_.size() ? std::optional(std::move(result)) : std::nullopt;
+  }
+
+private:
+  Mesh drillsFor(double clearance, double turn) const {
+    std::vector<TriangleMesh> drills;
+    for (const Hole& hole : holes_) drills.push_back(drillOf(hole, clearance, turn));
+    const TriangleMesh all = assembled(drills);
+    return surfaceMesh<Mesh>(all.vertices, all.faces);
+  }
+
+  const TriangleMesh& material_;
+  const std::vector<Hole>& holes_;
+  Expected expected_;
+  const std::function<Points(const Points&)>& representable_;
+};
+
+} // namespace
+
+std::optional<DrilledBody> drilled(const TriangleMesh& outer, const TriangleMesh& cavity,
+                                   const std::vector<Hole>& holes, double clearance,
+                                   const std::function<Points(const Points&)>& representable) {
+  TriangleMesh inwards = submesh(cavity.vertices, cavity.faces).mesh;
+  flip(inwards.faces);
+  const TriangleMesh material =
+      assembled({submesh(outer.vertices, outer.faces).mesh, std::move(inwards)});
+  Expected expected{eulerCharacteristic(material) - 2 * static_cast<Eigen::Index>(holes.size()),
+                    componentCount({outer.vertices, outer.faces})};
+  const Cutter cutter(material, holes, expected, representable);
+  constexpr int kTries = 5;
+  constexpr double kTurn = 0.0371; // radians, no share of a side's angle
+  for (int i = 0; i < kTries; ++i) {
+    std::optional<TriangleMesh> body = cutter.body(i * kTurn);
+    if (!body) continue;
+    std::optional<std::vector<TriangleMesh>> plugs = cutter.plugs(clearance, i * kTurn);
+    if (plugs) return DrilledBody{std::move(*body), std::move(*plugs)};
+  }
+  return {};
+}
+
+} // namespace massprops
