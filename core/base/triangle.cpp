@@ -14,7 +14,11 @@ Points vertexNormals(const Points& vertices, const Faces& faces) {
     const Vec3 normal = areaNormal(vertices, faces, f);
     for (const int v : faces.row(f)) normals.row(v) += normal.transpose();
   }
-  return normals.rowwise().normalized();
+  for (Eigen::Index v = 0; v < normals.rows(); ++v) {
+    const double length = normals.row(v).norm();
+    if (length > 0.0) normals.row(v) /= length;
+  }
+  return normals;
 }
 
 double leastAngle(const Vec3& a, const Vec3& b, const Vec3& c) {

@@ -444,7 +444,9 @@ bool CavitySearch::isAnswer(int round) {
 } // namespace
 
 Moments outerMoments(const CavityTask& task, const CavityResult& result) {
-  return task.model.outer ? moments(result.outer, movingFaces(task)) : task.model.solidMoments;
+  const Moments outer =
+      task.model.outer ? moments(result.outer, movingFaces(task)) : task.model.solidMoments;
+  return outer + task.model.attached;
 }
 
 SearchEffort& SearchEffort::operator+=(const SearchEffort& other) {

@@ -66,7 +66,8 @@ struct CavityResult {
   std::string stopReason;
 };
 
-/// Of the delivered outer surface, its lids included, in the working frame.
+/// Of the delivered outer surface, its lids included, in the working frame, and of what the model
+/// has attached.
 Moments outerMoments(const CavityTask& task, const CavityResult& result);
 
 /// The cavity that serves the goal best among those that pass inspection. Where a cavity crosses

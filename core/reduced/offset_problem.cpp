@@ -101,10 +101,10 @@ private:
 /// Of the outer surface, by α and, if it moves, β.
 BodyState outerState(const OffsetModel& model, const OffsetSurfaces& surfaces, bool usesInertia) {
   const Eigen::Index k = model.surface->basis.functions.cols();
-  if (!model.outer) return {model.solidMoments, MomentJacobian::Zero(10, k)};
+  if (!model.outer) return {model.solidMoments + model.attached, MomentJacobian::Zero(10, k)};
   MomentsWithRates moved =
       momentsWithRates(surfaces.outer, model.surface->faces, model.field.directions, usesInertia);
-  BodyState outer{moved.moments, MomentJacobian::Zero(10, 2 * k)};
+  BodyState outer{moved.moments + model.attached, MomentJacobian::Zero(10, 2 * k)};
   outer.jacobian.rightCols(k) = jacobian(model, std::move(moved.rates), surfaces.outerSlopes, 1.0);
   return outer;
 }

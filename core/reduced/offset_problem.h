@@ -22,7 +22,9 @@ struct OffsetModel {
   Faces innerFaces;
   Fillings fillings{{}}; ///< in which the body is to serve the goal
   Moments solidMoments;  ///< of the input surface
-  bool isOpen = false;   ///< whether `innerFaces` are those of an open surface
+  /// Of what the body has besides: negative where holes are drilled.
+  Moments attached = Moments::Zero();
+  bool isOpen = false; ///< whether `innerFaces` are those of an open surface
 };
 
 /// The two surfaces that a set of coefficients stands for.

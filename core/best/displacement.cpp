@@ -1,0 +1,72 @@
+#include "core/best/displacement.h"
+
+#include "core/base/symmetric_eigen.h"
+#include "core/base/tolerances.h"
+#include "core/goals/objective.h"
+#include "core/optimum/layered_quadric.h"
+
+#include <vector>
+
+namespace massprops {
+namespace {
+
+/// Functions of unit mean square over the vertices that move, orthogonal there: of the terms of a
+/// quadric, or of a plane. n×r, 0 for those that stay.
+RowMatrix functionsOf(const Points& vertices, const Points& directions, Eigen::Index terms) {
+  RowMatrix values = RowMatrix::Zero(vertices.rows(), terms);
+  double count = 0.0;
+  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
+    if (directions.row(v).isZero(0.0)) continue;
+    values.row(v) = monomials(vertices.row(v).transpose()).head(terms).transpose();
+    count += 1.0;
+  }
+  if (count == 0.0) return {};
+  const SymmetricEigen<Matrix> spectrum =
+      symmetricEigen(Matrix(values.transpose() * values / count));
+  constexpr double kLeastSquare = 1e-8; // of the largest
+  const Eigen::Index rank =
+      (spectrum.values.array() > kLeastSquare * spectrum.values[terms - 1]).count();
+  return values * spectrum.vectors.rightCols(rank) *
+         spectrum.values.tail(rank).cwiseInverse().cwiseSqrt().asDiagonal();
+}
+
+} // namespace
+
+Displacement displace(const DisplacementTask& task, Points& vertices) {
+  const Points start = vertices;
+  const bool usesInertia = task.goal.usesInertia();
+  constexpr double kUnit = 0.05; // of the farthest: what the solver's variables are 1 for
+  const RowMatrix functions =
+      kUnit * task.farthest * functionsOf(start, task.directions, usesInertia ? 10 : 4);
+  if (functions.size() == 0) return {};
+  const auto displaced = [&](const Vector& q) {
+    return Points(start + (functions * q).asDiagonal() * task.directions);
+  };
+  const BodyState outer{task.outer, MomentJacobian::Zero(10, functions.cols())};
+  const auto withJacobian = [&](const MomentsWithRates& both) {
+    BodyState state{both.moments, MomentJacobian::Zero(10, functions.cols())};
+    state.jacobian.topRows(both.rates.cols()) = both.rates.transpose() * functions;
+    return state;
+  };
+  const auto evaluateAt = [&](const Vector& q) {
+    const Points moved = displaced(q);
+    const BodyState cavity =
+        withJacobian(momentsWithRates(moved, task.faces, task.directions, usesInertia));
+    const std::vector<BodyState> states =
+        bodyStates(task.fillings, outer, cavity, [&](double level) {
+          return withJacobian(momentsBelowWithRates(moved, task.faces, task.directions, level));
+        });
+    return evaluateBody(task.goal, task.weights, states,
+                        outer.mass[0] / task.solidVolume - cavity.mass[0] / task.solidVolume,
+                        -cavity.jacobian.row(0).transpose() / task.solidVolume);
+  };
+  MinimizeOptions options;
+  options.feasibility = 0.1 * kFeasibility; // rounding needs the rest
+  options.range = 1.0 / kUnit;
+  options.maxEvaluations = 40;
+  const MinimizeResult result = minimize(evaluateAt, Vector::Zero(functions.cols()), options);
+  vertices = displaced(result.x);
+  return {result.evaluations, result.violation};
+}
+
+} // namespace massprops

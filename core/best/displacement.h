@@ -1,0 +1,30 @@
+// Vertices of a cavity moved by a few smooth functions, so that the body does what it is to do.
+#pragma once
+
+#include "core/reduced/cavity_search.h"
+
+namespace massprops {
+
+struct DisplacementTask {
+  const Goal& goal;
+  const Weights& weights;
+  const Fillings& fillings;
+  const Moments& outer; ///< of all but the cavity, working frame
+  double solidVolume;
+  const Faces& faces; ///< of the cavity, outward
+  /// Where each vertex goes; 0 for those that stay. n×3
+  const Points& directions;
+  double farthest; ///< root mean square of the displacements, in the directions' unit
+};
+
+struct Displacement {
+  int evaluations = 0;    ///< of the body
+  double violation = 0.0; ///< largest of the goal's constraints; 0 where no vertex could move
+};
+
+/// Displaces `vertices` along the directions by a polynomial of degree 2, or 1 where moments of
+/// inertia do not count, so that the goal's constraints hold and its objective is least.
+/// `vertices`: as they become; unchanged where none can move.
+Displacement displace(const DisplacementTask& task, Points& vertices);
+
+} // namespace massprops
