@@ -102,8 +102,11 @@ void define(CLI::App& app, Arguments& arguments) {
   Outputs& outputs = arguments.outputs;
   app.add_option("-o,--cavity", outputs.cavity, "Write the cavity, normals pointing into it")
       ->type_name("FILE");
-  app.add_option("--solid", outputs.solid, "Write outer and inner surface together, for the slicer")
+  app.add_option("--solid", outputs.solid,
+                 "Write outer and inner surface together, for the slicer; with drain holes the "
+                 "drilled body")
       ->type_name("FILE");
+  app.add_option("--plugs", outputs.plugs, "Write the plugs for drain holes")->type_name("FILE");
   app.add_option("--answer", outputs.answer,
                  "Write the model cut open, with its centre of mass before (red) and after (green) "
                  "and what it is judged by; PLY keeps the colours")

@@ -11,7 +11,8 @@ namespace massprops {
 /// folder and suffix.
 struct Outputs {
   std::string cavity;
-  std::string solid;  ///< outer and inner surface together
+  std::string solid;  ///< outer and inner surface together, joined by drain holes
+  std::string plugs;  ///< of drain holes
   std::string answer; ///< the model cut open and what it is judged by, in colours
   std::string report; ///< JSON; `-` is the standard output
 };

@@ -22,7 +22,7 @@ const std::string kPlaceholder = "{name}";
 
 std::vector<std::string> meshFilesOf(const Outputs& outputs) {
   std::vector<std::string> files;
-  for (const std::string& file : {outputs.cavity, outputs.solid, outputs.answer}) {
+  for (const std::string& file : {outputs.cavity, outputs.solid, outputs.plugs, outputs.answer}) {
     if (!file.empty()) files.push_back(file);
   }
   return files;
@@ -120,9 +120,14 @@ void writeResult(const Result& result, const TriangleMesh& model, const Outputs&
   }
   if (!outputs.solid.empty()) {
     const TriangleMesh& outer = result.outer ? *result.outer : model;
-    TriangleMesh solid = hasCavity ? assembled({outer, result.inner}) : outer;
+    TriangleMesh solid = result.drilled ? *result.drilled
+                         : hasCavity    ? assembled({outer, result.inner})
+                                        : outer;
     if (isShell) solid = withoutEqualVertices(solid); // along its rims
     writeMesh(places.at(outputs.solid), solid);
+  }
+  if (!outputs.plugs.empty() && result.plugs) {
+    writeMesh(places.at(outputs.plugs), *result.plugs);
   }
   if (!outputs.answer.empty() && result.picture) {
     writeMesh(places.at(outputs.answer), together(result.picture->cutOpen, result.picture->marks));
@@ -141,7 +146,8 @@ Arguments argumentsFor(const Arguments& arguments, const std::string& model) {
   const std::string name = fs::path(model).stem().string();
   Arguments filled = arguments;
   Outputs& outputs = filled.outputs;
-  for (std::string* file : {&outputs.cavity, &outputs.solid, &outputs.answer, &outputs.report}) {
+  for (std::string* file :
+       {&outputs.cavity, &outputs.solid, &outputs.plugs, &outputs.answer, &outputs.report}) {
     *file = filledIn(*file, name);
   }
   for (const auto& [parameter, file] : parameterFilesOf(arguments)) {

@@ -240,6 +240,19 @@ Rows printRows() {
       choice("build_axis", "Build axis", &Options::buildAxis,
              {"As used", "+Z", "+Y", "+X", "-Z", "-Y", "-X"},
              "Axis of the scene that points up in the printer. As used: the up axis."),
+      {"drain_holes",
+       ParameterKind::Whole,
+       Options{}.drainHoles,
+       "Drain holes",
+       "",
+       "Least number of holes through the wall for each cavity, for resin and powder: the first at "
+       "its lowest point, the second at its highest. The drilled body and plugs for the holes are "
+       "layers of their own. 0: none are drilled.",
+       {},
+       to(&Options::drainHoles)},
+      number("drain_diameter", "Drain hole diameter", "mm", &Options::drainDiameter,
+             "Of the narrowest part of a hole, model units read as mm. Guides for resin and powder "
+             "ask for 3.5."),
       {"print_file",
        ParameterKind::File,
        std::string(),

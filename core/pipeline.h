@@ -25,6 +25,9 @@ struct Result {
   /// `Options::outerUpperBound` > 0, without the cavities that the input had already, or with
   /// components flipped that faced the wrong way.
   std::optional<TriangleMesh> outer;
+  /// For `Options::drainHoles`, where the cavities could be drilled: outer and inner surface joined
+  /// by the holes, closed, outward; and the plugs that fit into them, in their places.
+  std::optional<TriangleMesh> drilled, plugs;
   /// For `Options::showAnswer`, where there is a cavity or a moved outer surface.
   std::optional<Picture> picture;
   Report report;

@@ -47,13 +47,10 @@ PosedModel pose(const Footing& footing, const Options& options) {
 /// The outer surface, and how far from these triangles the body stays solid.
 TriangleTree surfaceOf(const PosedModel& posed, const TriangleTree* keptSolid,
                        const Options& options) {
-  constexpr double kWalls = 4.0;
   TriangleTree surface(posed.vertices, posed.open ? posed.open->skin : posed.faces,
                        TriangleTree::Order::Spatial);
   if (keptSolid == nullptr) return surface;
-  const double depth = options.solidDepth
-                           ? *options.solidDepth / posed.frame.length + roundOff(posed.frame)
-                           : kWalls * posed.wall;
+  const double depth = solidDepthOf(posed, options);
   if (depth > posed.wall) surface.keepOut(*keptSolid, depth - posed.wall);
   return surface;
 }
@@ -355,6 +352,12 @@ void proveOutOfReach(const Preparation& model, const Fillings& fillings, Search&
 
 } // namespace
 
+double solidDepthOf(const PosedModel& posed, const Options& options) {
+  constexpr double kWalls = 4.0;
+  return options.solidDepth ? *options.solidDepth / posed.frame.length + roundOff(posed.frame)
+                            : kWalls * posed.wall;
+}
+
 Preparation::Preparation(const TriangleMesh& model, const Options& options, Resolution resolution,
                          const Known& known)
     : footing(
@@ -455,6 +458,12 @@ Search search(const Preparation& model, const Foundation& foundation, const Opti
   result.verdictBefore = makeVerdict(options, model.posed, model.posed.vertices);
   judge(model, options, result);
   considerBestPossible(model, foundation, options, bar, result);
+  const bool isHollow =
+      result.cavity.status == CavityStatus::Found && result.cavity.inspection.components > 0;
+  if (options.drainHoles > 0 && isHollow) {
+    bar.show(Schedule::kEnd, "Drain holes");
+    drain(model, options, result);
+  }
   if (result.task.bound && result.cavity.status == CavityStatus::Found)
     raiseTo(result.task, hollowBody(result.task, result.cavity), *result.task.bound);
   findPrintMargins(model, result);
@@ -488,6 +497,10 @@ Result deliver(const Preparation& model, const Foundation& foundation, const Sea
   result.inner = std::move(delivery.inner);
   result.innerWall = std::move(delivery.innerWall);
   result.outer = std::move(delivery.outer);
+  if (found.drainage && !found.drainage->holes.empty()) {
+    result.drilled = found.drainage->drilled.body;
+    result.plugs = assembled(found.drainage->drilled.plugs);
+  }
   return result;
 }
 
@@ -511,6 +524,7 @@ Report report(const Preparation& model, const Foundation& foundation, const Sear
   stages.secondsBasis = coarse.secondsBasis;
   stages.secondsLimit = foundation.secondsBound;
   stages.secondsLargestWall = found.secondsLargestWall;
+  stages.drainage = found.drainage ? &*found.drainage : nullptr;
   stages.margins = found.margins;
   stages.secondsMargins = found.secondsMargins;
   stages.certificates = found.certificates;

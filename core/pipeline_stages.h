@@ -5,6 +5,7 @@
 #include "core/base/options.h"
 #include "core/base/stopwatch.h"
 #include "core/contour/opened_set.h"
+#include "core/drill/drainage.h"
 #include "core/goals/goal.h"
 #include "core/goals/verdict.h"
 #include "core/model/foot.h"
@@ -81,6 +82,9 @@ struct Preparation {
   const double seconds = time.seconds(); ///< all of this took
 };
 
+/// How far from selected faces all stays solid; working length.
+double solidDepthOf(const PosedModel& posed, const Options& options);
+
 /// \throw DefectiveSurface when the model is no solid; InvalidInput when an option is absurd
 Preparation prepare(const TriangleMesh& model, const Options& options, ProgressBar& bar,
                     Resolution resolution = Resolution::Coarse, const Known& known = {});
@@ -122,6 +126,7 @@ struct Search {
   std::unique_ptr<Verdict> verdictBefore = {}, verdictAfter = {};
   double largestWall = 0.0; ///< working length; when the wanted one leaves no room
   double secondsLargestWall = 0.0;
+  std::optional<Drainage> drainage = {};      ///< where holes are asked for and there is a cavity
   std::optional<PrintMargins> margins = {};   ///< where the goal is reached
   std::vector<Certificate> certificates = {}; ///< of all the goal's conditions, or none
   double secondsCertificate = 0.0, secondsMargins = 0.0;
@@ -130,6 +135,10 @@ struct Search {
 /// The task refers to `model`, `foundation` and `options`, which must outlive it.
 Search search(const Preparation& model, const Foundation& foundation, const Options& options,
               ProgressBar& bar);
+
+/// Holes for the cavity, which is filled where they are not worth it and adjusted to what they take
+/// out.
+void drain(const Preparation& model, const Options& options, Search& found);
 
 /// The surfaces of the result, without report and picture.
 Result deliver(const Preparation& model, const Foundation& foundation, const Search& found,

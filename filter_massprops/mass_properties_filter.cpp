@@ -366,6 +366,8 @@ ReturnedValues MassPropertiesFilter::optimize(MeshDocument& document,
 
   NewLayers layers(document, *input);
   if (result.outer) layers.add(*result.outer, "outer offset surface");
+  if (result.drilled) layers.add(*result.drilled, "with drain holes");
+  if (result.plugs) layers.add(*result.plugs, "plugs");
   if (result.picture) {
     layers.add(result.picture->cutOpen, "cut open");
     layers.add(result.picture->marks, result.picture->marksName);

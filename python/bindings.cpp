@@ -11,6 +11,7 @@
 #include <pybind11/stl.h>
 
 #include <exception>
+#include <optional>
 
 namespace py = pybind11;
 
@@ -148,8 +149,11 @@ py::tuple hollow(Points vertices, const Faces& faces, const py::dict& parameters
     throw;
   }
   progress.rethrow();
-  const py::object outer = result.outer ? toPython(*result.outer) : py::object(py::none());
-  return py::make_tuple(toPython(result.inner), result.innerWall, outer, picturesOf(result),
+  const auto orNone = [](const std::optional<TriangleMesh>& mesh) {
+    return mesh ? py::object(toPython(*mesh)) : py::object(py::none());
+  };
+  return py::make_tuple(toPython(result.inner), result.innerWall, orNone(result.outer),
+                        orNone(result.drilled), orNone(result.plugs), picturesOf(result),
                         toPython(result.report));
 }
 

@@ -65,6 +65,11 @@ const std::vector<Wish>& wishes() {
        }},
       {"mend", [](Options& o) { o.mend = true; }},
       {"print_file", [](Options& o) { o.printFile = projectFile(); }},
+      {"drain_holes",
+       [](Options& o) {
+         o.drainHoles = 1;
+         o.drainDiameter = 2.0;
+       }},
   };
   return all;
 }
@@ -75,6 +80,9 @@ const std::vector<std::pair<std::string, std::string>>& refused() {
       {"surface", "outer_upper_bound"},  {"surface", "best possible cavity"},
       {"surface", "cavity_infill"},      {"outer_upper_bound", "keep_selected_solid"},
       {"fill_density", "cavity_infill"}, {"Stand empty and filled", "cavity_infill"},
+      {"surface", "drain_holes"},        {"Stand empty and filled", "drain_holes"},
+      {"fill_density", "drain_holes"},   {"cavity_infill", "drain_holes"},
+      {"print_file", "drain_holes"},
   };
   return pairs;
 }

@@ -56,8 +56,10 @@ Delivery deliver(const Solid& solid, const PosedModel& posed, const CavityTask& 
   if (cavity.shape == CavityShape::Offset) {
     deliverOffsetSurface(solid, posed, task, cavity, vertexOf, representable, result);
   } else {
-    result.inner = {representable(toModel(posed.frame, cavity.inner)), cavity.cavity.faces};
-    result.innerWall = wallOf(task, cavity) * posed.frame.length;
+    // Vertices of what was filled are left out.
+    Submesh inner = submesh(representable(toModel(posed.frame, cavity.inner)), cavity.cavity.faces);
+    result.inner = std::move(inner.mesh);
+    result.innerWall = wallOf(task, cavity)(inner.vertexOf) * posed.frame.length;
   }
   flip(result.inner.faces);
   if (inputServes(solid, posed, task)) return result;

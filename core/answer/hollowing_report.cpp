@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <sstream>
 #include <vector>
@@ -60,6 +61,94 @@ std::string outlook(const CavityTask& task, const Verdict& verdict, bool isProve
          verdict.bestInWords(best != nullptr ? best->states
                                              : std::vector<Moments>{task.bound->massMomentsInAll}) +
          ".";
+}
+
+/// With the holes open; the mass moments that the verdict sees are those with the plugs in.
+Moments openBody(const Body& plugged, const Drainage& drainage) {
+  return plugged.mass - drainage.plugged + drainage.open;
+}
+
+/// In water the holes are closed, and what is to weigh so much is weighed with its plugs.
+bool isForPluggedAlone(GoalKind goal) {
+  return goal == GoalKind::Float || goal == GoalKind::Mass;
+}
+
+/// Whether the print does what it shall with its holes open, too.
+bool servesDrained(const Verdict& verdict, const Body& plugged, const Stages& stages,
+                   const Options& options) {
+  if (stages.drainage == nullptr) return true;
+  return stages.drainage->unreached == 0 &&
+         (isForPluggedAlone(options.goal) ||
+          verdict.isReached(openBody(plugged, *stages.drainage)));
+}
+
+/// After a space, what there is to say of drain holes.
+std::string aboutDrainage(const PosedModel& posed, const Verdict& verdict, const Body& plugged,
+                          const Stages& stages, const Options& options) {
+  if (stages.drainage == nullptr) return "";
+  const Drainage& drainage = *stages.drainage;
+  if (drainage.unreached > 0) {
+    return " Drain holes are missing: the cavity is too small to be worth them, or has no place "
+           "for "
+           "a drill: lower drain_diameter, or turn the print by build_axis.";
+  }
+  const Moments open = openBody(plugged, drainage);
+  const std::string holes = std::to_string(drainage.holes.size()) +
+                            (drainage.holes.size() == 1 ? " drain hole" : " drain holes");
+  std::string text = " This is with plugs in its " + holes;
+  if (options.goal == GoalKind::Float) {
+    text += ", which keep the water out.";
+  } else if (options.goal == GoalKind::Mass) {
+    text += "; without them it weighs " +
+            toString(inModel(open, posed.frame, options.density).mass) + " g.";
+  } else if (verdict.isReached(open)) {
+    text += "; with the holes open the goal is reached, too.";
+  } else {
+    text += "; with the holes open the goal is missed: " + verdict.whatIsMissed(open) + ".";
+  }
+  if (drainage.missing > 0) {
+    text += " For " + std::to_string(drainage.missing) + " more there is no place.";
+  }
+  if (drainage.filled > 0) {
+    text += drainage.filled == 1 ? " One cavity too small for a drain hole is filled."
+                                 : " " + std::to_string(drainage.filled) +
+                                       " cavities too small for a drain hole are filled.";
+  }
+  if (!drainage.pools.empty() && drainage.pools.front() > kToleratedPool) {
+    constexpr double kMillilitre = 1000.0;
+    const double sum = std::accumulate(drainage.pools.begin(), drainage.pools.end(), 0.0);
+    text += " Held as it is built, it keeps " +
+            toString(std::round(sum / kMillilitre * 100.0) / 100.0) +
+            " ml of liquid below its lowest outlets: turn it to drain it.";
+  }
+  return text;
+}
+
+/// The holes, what stays in the cavities, and the body with its holes open.
+void addDrainage(const PosedModel& posed, const Verdict& verdict, const Body& plugged,
+                 const Drainage& drainage, double density, Report& report) {
+  report.add("drain_holes", static_cast<int>(drainage.holes.size()));
+  report.add("missing_drain_holes", drainage.missing);
+  report.add("filled_cavities", drainage.filled);
+  report.add("undrained_cavities", drainage.unreached);
+  report.add("seconds_drainage", drainage.seconds);
+  if (drainage.unreached > 0) return;
+  for (Eigen::Index i = 0; i < drainage.openings.rows(); ++i) {
+    report.add("drain_hole_" + std::to_string(i + 1), Vec3(drainage.openings.row(i).transpose()));
+  }
+  report.add("plug_clearance", kPlugClearance);
+  const auto addPools = [&](const std::string& key, const std::vector<double>& pools) {
+    report.add("trapped_volume" + key, std::accumulate(pools.begin(), pools.end(), 0.0));
+    report.add("largest_pool" + key, pools.empty() ? 0.0 : pools.front());
+  };
+  addPools("", drainage.pools);
+  addPools("_hanging", drainage.poolsHanging);
+  const Moments open = openBody(plugged, drainage);
+  const MassProperties body = inModel(open, posed.frame, density);
+  report.add("mass_open", body.mass);
+  report.add("center_of_mass_open", body.centerOfMass);
+  report.add("inertia_tensor_open", body.inertiaTensor);
+  verdict.describe(open, "open", report);
 }
 
 std::string message(const CavityTask& task, const Verdicts& verdicts, const CavityResult& cavity,
@@ -259,12 +348,14 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Ve
 
   Report report;
   report.add("goal", goalNames()[static_cast<std::size_t>(options.goal)]);
-  const bool isSolved = after.violation <= kFeasibility && verdicts.after.isReached(after.mass);
+  const bool isSolved = after.violation <= kFeasibility && verdicts.after.isReached(after.mass) &&
+                        servesDrained(verdicts.after, after, stages, options);
   report.add("solved", isSolved);
   report.add("message",
              (stages.repairs.warning.empty() ? "" : stages.repairs.warning + " ") +
                  message(task, verdicts, cavity, before, after,
                          stages.largestWall * posed.frame.length, !stages.certificates.empty()) +
+                 aboutDrainage(posed, verdicts.after, after, stages, options) +
                  remark(verdicts.after, after.mass) + footInWords(posed, isSolved));
   const std::string units = unitsInWords(posed.frame.length);
   if (!units.empty()) report.add("units", units);
@@ -282,6 +373,9 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Ve
   verdicts.before.describe(before.mass, "before", report);
   verdicts.after.describe(after.mass, "after", report);
   addContact(posed, options, report);
+  if (stages.drainage != nullptr) {
+    addDrainage(posed, verdicts.after, after, *stages.drainage, options.density, report);
+  }
   if (task.bound) {
     addLimit(task, verdicts, before, after, report);
     addCertificates(posed.frame, stages, report);

@@ -3,6 +3,7 @@
 
 #include "core/answer/print_margins.h"
 #include "core/base/report.h"
+#include "core/drill/drainage.h"
 #include "core/goals/verdict.h"
 #include "core/model/posed_model.h"
 #include "core/model/repair.h"
@@ -23,7 +24,8 @@ struct Stages {
   /// Least working distances of the cavity from the outer surface and from what stays solid; empty
   /// where nothing must, and the inspection knows the first.
   std::optional<double> leastWall, solidDepth;
-  double largestWall = 0.0; ///< working length; of use when there is no room for a cavity
+  double largestWall = 0.0;           ///< working length; of use when there is no room for a cavity
+  const Drainage* drainage = nullptr; ///< null: no holes are asked for, or there is no cavity
   std::optional<PrintMargins> margins; ///< where the goal is reached
   /// Of all the goal's conditions, where it is missed and that no cavity can reach it was proved.
   std::vector<Certificate> certificates;

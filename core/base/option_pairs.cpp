@@ -7,6 +7,10 @@ bool moves(const Options& options) {
   return options.outerUpperBound > 0.0;
 }
 
+bool drains(const Options& options) {
+  return options.drainHoles > 0;
+}
+
 bool hasInfill(const Options& options) {
   return options.cavityInfill > 0.0;
 }
@@ -37,6 +41,20 @@ const std::vector<RefusedPair>& refusedPairs() {
       {[](const Options& o, bool) { return o.keptSolid.faces.rows() > 0 && moves(o); },
        "Selected faces stay solid only where the outer surface stays where it is: set "
        "outer_lower_bound and outer_upper_bound to 0, or switch keep_selected_solid off."},
+      {[](const Options& o, bool isOpen) { return isOpen && drains(o); },
+       "The cavity of an open surface is open already: set drain_holes to 0, or close the surface "
+       "with Remeshing > Close Holes."},
+      {[](const Options& o, bool) { return drains(o) && o.goal == GoalKind::StandEmptyAndFilled; },
+       "A cavity with drain holes holds nothing: set drain_holes to 0 for the goal Stand empty and "
+       "filled, or choose the goal Stand."},
+      {[](const Options& o, bool) { return drains(o) && o.fillDensity > 0.0; },
+       "A cavity with drain holes holds nothing: set drain_holes or fill_density to 0."},
+      {[](const Options& o, bool) { return drains(o) && hasInfill(o); },
+       "A cavity that is printed as infill needs no drain holes: set drain_holes or cavity_infill "
+       "to 0."},
+      {[](const Options& o, bool) { return drains(o) && !o.printFile.empty(); },
+       "print_file is a project for filament, whose cavities need no drain holes: set drain_holes "
+       "to 0, or leave print_file empty and export the drilled body."},
   };
   return pairs;
 }

@@ -47,6 +47,21 @@ void requireSensibleWishes(const Options& options) {
           "10 suits most models.");
 }
 
+void requireSensibleHoles(const Options& options, double diagonal) {
+  constexpr int kMost = 8;
+  constexpr double kLeastDiameter = 1.0;
+  require(options.drainHoles >= 0 && options.drainHoles <= kMost,
+          "drain_holes is the least number of holes for each cavity: give 0 (none are drilled) to "
+          "8; 2 suits most models.");
+  if (options.drainHoles == 0) return;
+  require(finite(options.drainDiameter) && options.drainDiameter >= kLeastDiameter,
+          "drain_diameter must be at least 1 mm, for there is a plug in it that needs a clearance; "
+          "resin and powder need 3.5.");
+  require(options.drainDiameter < 0.5 * diagonal,
+          "drain_diameter is more than half of the model's diagonal: lower it. It is in "
+          "millimetres, as the model should be.");
+}
+
 } // namespace
 
 void requireSensible(const Options& options, Eigen::Index vertexCount, double diagonal) {
@@ -89,10 +104,16 @@ void requireSensible(const Options& options, Eigen::Index vertexCount, double di
     require(finite(weight) && weight >= 0.0, "opt_weight_1 to opt_weight_6 must be 0 or positive.");
   }
   requireSensibleWishes(options);
+  requireSensibleHoles(options, diagonal);
 }
 
 double contentsDensity(const Options& options) {
   return options.fillDensity + options.cavityInfill * options.density;
+}
+
+UpAxis buildAxisOf(const Options& options) {
+  if (options.buildAxis == BuildAxis::AsUsed) return options.upAxis;
+  return static_cast<UpAxis>(static_cast<int>(options.buildAxis) - 1);
 }
 
 } // namespace massprops

@@ -104,6 +104,10 @@ struct Options {
   bool showAnswer = false;
   BuildAxis buildAxis = BuildAxis::AsUsed; ///< what is printed is turned so that this one is up
   std::string printFile; ///< path, UTF-8, of a 3MF project for a slicer; empty: none
+  int drainHoles = 0;    ///< least number for each cavity; 0: none are drilled
+  /// Least diameter of a drain hole, mm: what printing guides ask for, for resin and for powder
+  /// [All3DP, Addema].
+  double drainDiameter = 3.5;
   /// Rounds points to what the caller can store (a float mesh, say). What is delivered, checked
   /// and reported is the rounded surface. Empty: double precision.
   std::function<Points(const Points&)> representable;
@@ -119,5 +123,8 @@ inline bool standsOnContacts(GoalKind goal) {
 void requireSensible(const Options& options, Eigen::Index vertexCount, double diagonal);
 /// Density of what is in the cavity once it is printed and filled, g/cm³.
 double contentsDensity(const Options& options);
+
+/// `AsUsed` resolved.
+UpAxis buildAxisOf(const Options& options);
 
 } // namespace massprops

@@ -3,16 +3,6 @@
 #include "core/model/frame.h"
 
 namespace massprops {
-namespace {
-
-UpAxis buildAxisOf(const Options& options) {
-  if (options.buildAxis == BuildAxis::AsUsed) return options.upAxis;
-  // One list but for its first entry.
-  return static_cast<UpAxis>(static_cast<int>(options.buildAxis) - 1);
-}
-
-} // namespace
-
 Points PlatePose::operator()(const Points& model) const {
   return (model * rotation.transpose()).rowwise() + shift.transpose();
 }

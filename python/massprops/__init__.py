@@ -58,6 +58,10 @@ class Result:
     outer: Mesh
     #: Whether `outer` is another surface than the model.
     outer_changed: bool
+    #: With `drain_holes`: outer surface and cavity joined by the holes; None where nothing was drilled.
+    drilled: "Mesh | None"
+    #: The plugs for the holes, or None.
+    plugs: "Mesh | None"
     #: With `pictures`: the model cut open, the marks, and the skeleton.
     pictures: tuple
     #: The keys of docs/report.md: bool, int, float, str, or arrays of 3 and 3×3.
@@ -70,8 +74,10 @@ class Result:
 
     @property
     def solid(self):
-        """Outer surface and cavity in one mesh, which bounds the material; not merged along the rims of an
-        open surface."""
+        """Outer surface and cavity in one mesh, which bounds the material: with drain holes the drilled body;
+        not merged along the rims of an open surface."""
+        if self.drilled is not None:
+            return self.drilled
         return Mesh(np.concatenate([self.outer.vertices, self.cavity.vertices]),
                     np.concatenate([self.outer.faces,
                                     self.cavity.faces + np.int32(len(self.outer.vertices))]))
@@ -161,13 +167,15 @@ def hollow(vertices, faces, *, keep_solid=None, pictures=False, single_precision
     points = _points(vertices)
     triangles = _triangles(faces, len(points))
     wishes = dict(parameters, show_layers=bool(pictures))
-    cavity, wall, outer, drawn, report = _massprops.hollow(
+    cavity, wall, outer, drilled, plugs, drawn, report = _massprops.hollow(
         points, triangles, wishes, _kept(keep_solid, len(triangles)), bool(single_precision), progress)
     if single_precision:
         points = points.astype(np.float32).astype(np.float64)
     return Result(cavity=Mesh(*cavity), wall=wall,
                   outer=Mesh(points, triangles) if outer is None else Mesh(*outer),
                   outer_changed=outer is not None,
+                  drilled=None if drilled is None else Mesh(*drilled),
+                  plugs=None if plugs is None else Mesh(*plugs),
                   pictures=tuple(ColouredMesh(v, f, name, c) for name, v, f, c in drawn), report=report)
 
 

@@ -43,6 +43,17 @@ class FilesTest(ProgramTest):
         quality = ply_elements(self.folder / "cavity.ply")["vertex"]["quality"]
         self.assertAlmostEqual(min(quality), wall, delta=1e-3)
 
+    def test_the_drilled_body_and_its_plugs_are_files(self):
+        report = self.report(PIECE, *LIGHT, "--drain-holes", "2", "--solid", "drilled.ply",
+                             "--plugs", "plugs.ply")
+        drilled, plugs = read(self.folder / "drilled.ply"), read(self.folder / "plugs.ply")
+        for part in (drilled, plugs):
+            self.assertTrue(measure.edges_match(part[1]))
+        open_mass = measure.body(*drilled, DENSITY / 1000)[0]
+        self.assertAlmostEqual(report["mass_open"] / open_mass, 1, delta=1e-6)
+        self.assertAlmostEqual(
+            report["mass_after"] / (open_mass + measure.body(*plugs, DENSITY / 1000)[0]), 1, delta=1e-6)
+
     def test_the_keys_are_the_documented_ones(self):
         report = self.report(PIECE, *LIGHT)
         documented = set(re.findall(r"`([a-z0-9_…]+)`", (ROOT / "docs/report.md").read_text()))

@@ -99,6 +99,48 @@ class LayersTest(HostTest):
         for vertex in outer[0][::50]:
             self.assertLess(np.linalg.norm(starts - vertex, axis=1).min(), 0.06 * size)
 
+    def test_the_drilled_body_and_its_plugs_are_layers_before_the_cavity(self):
+        script = changed_script(SPIN, self.folder / "s.mlx", drain_holes=2)
+        layers, report = self.project(self.mesh(), script)
+        names = [name for name, _ in layers]
+        self.assertEqual(names, ["model_out.ply", "modelwithdrainholes_out.ply",
+                                 "modelplugs_out.ply", "modelinneroffsetsurface_out.ply"])
+        for _, matrix in layers[1:]:
+            np.testing.assert_array_equal(matrix, layers[0][1])
+        outer, drilled, plugs, inner = (read_ply(self.folder / name) for name in names)
+        self.assertTrue(report["solved"])
+        holes = int(report["drain_holes"])
+        self.assertGreaterEqual(holes, 2)
+
+        # One closed body that does not cross itself, with a handle for each hole but the first.
+        for i, euler in ((1, 4 - 2 * holes), (2, 2 * holes), (0, 2), (3, 2)):
+            points, faces = read_ply(self.folder / names[i])
+            self.assertEqual(len(points) - len(faces) // 2, euler, names[i])
+        self.assertEqual(bounds_a_volume(self.folder / names[1]), "")
+        self.assertEqual(bounds_a_volume(self.folder / names[2]), "")
+        self.assertEqual(bounds_a_volume(self.folder / names[0], self.folder / names[3]), "")
+        apart = measure.surface_distance(drilled, plugs)
+        self.assertAlmostEqual(apart, report["plug_clearance"], delta=0.01)
+
+        # What the report weighs is what these triangles enclose.
+        density = 1.24 / 1000.0
+        for parts, state in (([drilled], "open"), ([drilled, plugs], "after")):
+            mass, centre, inertia = measure.mass_properties(
+                [measure.body(*part, density) for part in parts])
+            self.assertAlmostEqual(mass, report["mass_" + state], delta=1e-5 * mass)
+            np.testing.assert_allclose(centre, report["center_of_mass_" + state], atol=1e-4)
+            np.testing.assert_allclose(inertia, report["inertia_tensor_" + state],
+                                       atol=1e-4 * np.abs(inertia).max())
+        solid, _, _ = measure.hollow_body(outer, inner, 1.24)
+        self.assertLess(report["mass_open"], report["mass_after"])
+        self.assertLess(report["mass_after"], solid)
+
+        # A hole is as wide as wished: a rod of the diameter goes through.
+        for i in range(holes):
+            rim = report[f"drain_hole_{i + 1}"]
+            near = drilled[0][np.linalg.norm(drilled[0] - rim, axis=1) < 8]
+            self.assertGreater(np.linalg.norm(near - rim, axis=1).min(), 0.98 * 3.5 / 2)
+
     def test_the_vertex_quality_is_the_wall_at_each_vertex(self):
         inner = self.folder / "inner.ply"
         status, log = meshlabserver("-i", TOP, "-o", inner, "-m", "vq", "-s", SPIN)

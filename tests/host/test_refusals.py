@@ -196,6 +196,12 @@ class RefusalsTest(HostTest):
         self.refuse(cube(), "No face is selected", keep_selected_solid="true")
         self.refuse(cube(), "solid_depth", solid_depth=-1, basis_k=8)
 
+    def test_drain_holes(self):
+        self.refuse(cube(), "drain_holes", drain_holes=-1, basis_k=8)
+        self.refuse(cube(), "drain_diameter", drain_holes=1, drain_diameter=0.2, basis_k=8)
+        self.refuse(cube(), "drain_diameter", drain_holes=1, drain_diameter=50, basis_k=8)
+        self.refuse(cube(), "fill_density", drain_holes=1, fill_density=1, basis_k=8)
+
     def test_entries_that_do_not_exist(self):
         self.refuse(cube(), "'goal' is entry 9", goal=9)
         self.refuse(cube(), "'up_axis' is entry -1", up_axis=-1)

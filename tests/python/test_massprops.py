@@ -55,6 +55,17 @@ def test_the_solid_is_closed(spinning):
     assert measure.body(*spinning.solid, 0.00124)[0] == pytest.approx(spinning.report["mass_after"])
 
 
+def test_drain_holes_make_one_body_with_plugs(top, spinning):
+    result = massprops.hollow(*top, goal="Spin", inner_lower_bound=1.5, drain_holes=2)
+    assert spinning.drilled is None and spinning.plugs is None
+    assert result.solid is result.drilled and measure.edges_match(result.drilled.faces)
+    open_mass = measure.body(*result.drilled, 0.00124)[0]
+    assert result.report["mass_open"] == pytest.approx(open_mass, rel=1e-6)
+    assert result.report["mass_after"] == pytest.approx(
+        open_mass + measure.body(*result.plugs, 0.00124)[0], rel=1e-6)
+    assert result.solved
+
+
 def test_same_input_same_bytes_with_any_number_of_threads(piece):
     runs = []
     for count in (1, 3):
