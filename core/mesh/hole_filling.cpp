@@ -8,6 +8,7 @@
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 
 #include <iterator>
+#include <random>
 #include <vector>
 
 namespace massprops {
@@ -22,6 +23,19 @@ void requireLid(bool isClosed) {
       "An opening of the surface cannot be closed by a lid, which open_surface needs "
       "for its own calculations: straighten its border with Smoothing > Laplacian "
       "Smooth on the selected border, then run again.");
+}
+
+/// The points, moved by next to nothing: no two triangulations tie then, which CGAL tells apart by
+/// where in memory their triangles lie.
+Points untied(const Points& points) {
+  constexpr double kNextToNothing = 1e-9; // of their extent
+  const double most =
+      kNextToNothing * (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+  std::minstd_rand random; // begins as always
+  Points result = points;
+  for (double& coordinate : result.reshaped<Eigen::RowMajor>())
+    coordinate += most * static_cast<double>(random()) / static_cast<double>(random.max());
+  return result;
 }
 
 } // namespace
@@ -51,7 +65,7 @@ TriangleMesh withOpeningsFilled(const TriangleMesh& open) {
 }
 
 Faces holeFilling(const TriangleMesh& patch, const std::vector<int>& border) {
-  auto mesh = surfaceMesh(patch.vertices, patch.faces);
+  auto mesh = surfaceMesh(untied(patch.vertices), patch.faces);
   if (static_cast<Eigen::Index>(mesh.number_of_faces()) < patch.faces.rows()) return {};
   const auto vertex = [](int v) { return Mesh::Vertex_index(static_cast<Mesh::size_type>(v)); };
   const Mesh::Halfedge_index first = mesh.halfedge(vertex(border[0]), vertex(border[1]));
