@@ -33,7 +33,7 @@ bool moves(const Options& options) {
 
 /// The checked model, and what it stands on.
 Footing stand(Solid solid, const Options& options, const std::optional<double>& depth) {
-  requireSensible(options, solid.vertices().rows(), solid.diagonal());
+  requireSensible(options, solid.diagonal());
   requireEnoughFunctions(options);
   return onFoot(std::move(solid), options, depth);
 }
@@ -68,8 +68,7 @@ double leastDistance(const PosedModel& posed, const CavityResult& cavity,
 /// How far offsets along the field may go for a wall to be kept.
 OffsetBounds boundsKeeping(double wall, const Preparation& model, const MovingSurface& moving,
                            const OffsetField& field, const Options& options) {
-  const bool isCopy = moving.vertices.rows() < model.posed.vertices.rows();
-  const auto bounds = isCopy ? innerBoundsOfCopy : innerBounds;
+  const auto bounds = moving.isCopy ? innerBoundsOfCopy : innerBounds;
   return keepingWall(moving.vertices, model.surface, field,
                      bounds(field, wall, options.innerUpperBound), wall);
 }
@@ -372,9 +371,9 @@ Preparation::Preparation(const TriangleMesh& model, const Options& options, Reso
       surface(surfaceOf(posed, keptSolidTree.get(), options)),
       solidMoments(moments(posed.vertices, posed.faces)),
       goal(makeGoal(options, posed, posed.vertices)),
-      isDecimated(resolution == Resolution::Coarse && !moves(options) && !posed.open),
+      mayCopy(resolution == Resolution::Coarse && !moves(options) && !posed.open),
       isCarrierCoarse(resolution == Resolution::Coarse),
-      schedule(scheduleFor(posed.vertices.rows(), options.basisSize, isDecimated)) {}
+      schedule(scheduleFor(posed.vertices.rows(), options.basisSize, mayCopy)) {}
 
 Preparation prepare(const TriangleMesh& model, const Options& options, ProgressBar& bar,
                     Resolution resolution, const Known& known) {
@@ -410,7 +409,7 @@ Foundation coarsen(const Preparation& model, const Options& options, ProgressBar
   };
   const auto coarsenModel = [&] {
     bar.show(model.schedule.copy, "Coarse copies");
-    const CoarseningOptions wanted{options.basisSize, model.isDecimated, model.isCarrierCoarse,
+    const CoarseningOptions wanted{options.basisSize, model.mayCopy, model.isCarrierCoarse,
                                    options.weights.smoothness > 0.0};
     result.coarse = coarsen(
         model.posed, wanted,

@@ -76,7 +76,7 @@ struct Preparation {
   const TriangleTree surface;
   const Moments solidMoments; ///< of the outer surface, working frame
   const std::unique_ptr<Goal> goal;
-  const bool isDecimated;     ///< whether a copy moves inwards
+  const bool mayCopy;         ///< whether it may be a copy that moves inwards
   const bool isCarrierCoarse; ///< whether a coarser one carries skeleton and basis
   const Schedule schedule;
   const double seconds = time.seconds(); ///< all of this took

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 
 namespace massprops::testing {
@@ -281,6 +282,72 @@ TriangleMesh polycube(const std::vector<std::array<int, 3>>& cells, int n) {
   return welder.mesh();
 }
 
+namespace {
+
+double cross(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// Triangles of a counter-clockwise polygon by cutting ears off.
+std::vector<std::array<int, 3>> earsOf(const std::vector<Vec2>& outline) {
+  std::vector<int> left(outline.size());
+  std::iota(left.begin(), left.end(), 0);
+  const auto at = [&](int v) { return outline[static_cast<std::size_t>(v)]; };
+  const auto isEar = [&](int a, int b, int c) {
+    const auto turn = [&](int p, int q, int r) { return cross(at(q) - at(p), at(r) - at(p)); };
+    if (turn(a, b, c) <= 0.0) return false;
+    return std::none_of(left.begin(), left.end(), [&](int v) {
+      return v != a && v != b && v != c && turn(a, b, v) >= 0.0 && turn(b, c, v) >= 0.0 &&
+             turn(c, a, v) >= 0.0;
+    });
+  };
+  std::vector<std::array<int, 3>> triangles;
+  for (std::size_t i = 0; left.size() > 2; ++i) {
+    const std::size_t n = left.size();
+    const std::array<int, 3> ear{left[i % n], left[(i + 1) % n], left[(i + 2) % n]};
+    if (!isEar(ear[0], ear[1], ear[2])) continue;
+    triangles.push_back(ear);
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>((i + 1) % n));
+  }
+  return triangles;
+}
+
+} // namespace
+
+TriangleMesh prism(const std::vector<Vec2>& outline, double height) {
+  const auto n = static_cast<int>(outline.size());
+  Welder<int> welder;
+  for (int v = 0; v < n; ++v) {
+    const Vec2& p = outline[static_cast<std::size_t>(v)];
+    welder.vertex(v, {p.x(), p.y(), 0.0});
+  }
+  for (int v = 0; v < n; ++v) {
+    const Vec2& p = outline[static_cast<std::size_t>(v)];
+    welder.vertex(n + v, {p.x(), p.y(), height});
+  }
+  for (int v = 0; v < n; ++v) welder.quad(v, (v + 1) % n, n + (v + 1) % n, n + v);
+  for (const auto& [a, b, c] : earsOf(outline)) {
+    welder.triangle(n + a, n + b, n + c);
+    welder.triangle(a, c, b);
+  }
+  return welder.mesh();
+}
+
+TriangleMesh bracket(int arc) {
+  std::vector<Vec2> outline = {{0, 0}, {10, 0}, {10, 1}};
+  const Vec2 centre(3, 3);
+  for (int i = 0; i <= arc; ++i) {
+    const double angle = 0.5 * pi * i / arc;
+    outline.emplace_back(centre - 2.0 * Vec2(std::sin(angle), std::cos(angle)));
+  }
+  outline.emplace_back(1, 6);
+  outline.emplace_back(0, 6);
+  // Its profile stands upright.
+  Mat3 upright;
+  upright << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  return transformed(prism(outline, 5.0), upright);
+}
+
 TriangleMesh figure(int n) {
   std::vector<Lattice> cells;
   const auto fill = [&](Lattice from, Lattice to) {
@@ -387,6 +454,24 @@ TriangleMesh reversed(const TriangleMesh& mesh) {
   TriangleMesh result = mesh;
   result.faces.col(1).swap(result.faces.col(2));
   return result;
+}
+
+TriangleMesh unevenlyCut(const TriangleMesh& mesh, int times) {
+  const double middle = 0.5 * (mesh.vertices.col(0).minCoeff() + mesh.vertices.col(0).maxCoeff());
+  Welder<int> welder;
+  const auto n = static_cast<int>(mesh.vertices.rows());
+  for (int v = 0; v < n; ++v) welder.vertex(v, mesh.vertices.row(v).transpose());
+  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
+    const Eigen::RowVector3i corners = mesh.faces.row(f);
+    const Vec3 centroid = mesh.vertices(corners, Eigen::all).colwise().mean().transpose();
+    if (centroid.x() > middle) {
+      welder.triangle(corners[0], corners[1], corners[2]);
+      continue;
+    }
+    const int c = welder.vertex(n + static_cast<int>(f), centroid);
+    for (int k = 0; k < 3; ++k) welder.triangle(corners[k], corners[(k + 1) % 3], c);
+  }
+  return times > 1 ? unevenlyCut(welder.mesh(), times - 1) : welder.mesh();
 }
 
 TriangleMesh joined(const TriangleMesh& a, const TriangleMesh& b) {

@@ -52,6 +52,15 @@ TriangleMesh capsule(double radius, double length, int segments);
 /// n×n grid. No two cubes may touch along an edge or at a corner only. Not centred.
 TriangleMesh polycube(const std::vector<std::array<int, 3>>& cells, int n);
 
+/// The counter-clockwise polygon as bottom at z = 0 and top at z = `height`, with as few triangles
+/// as CAD programs take: long ones. Not centred.
+TriangleMesh prism(const std::vector<Vec2>& outline, double height);
+
+/// A bracket of two plates of thickness 1 at a right angle, 10 long, 6 high and 5 deep, whose inner
+/// corner is a quarter of a circle of radius 2 in `arc` pieces; a prism that lies on its longer
+/// plate. Not centred.
+TriangleMesh bracket(int arc);
+
 /// A figure with a body, a head that leans forwards, two arms and two legs on flat feet at z = 0.
 /// Smooth except for the rims of the feet; every limb is `n` squares wide.
 TriangleMesh figure(int n);
@@ -82,6 +91,9 @@ Mat3 shear(double slope);
 TriangleMesh reversed(const TriangleMesh& mesh);
 /// Every triangle cut in four at the middles of its edges.
 TriangleMesh subdivided(const TriangleMesh& mesh);
+/// Triangles on the side x < 0 of the mesh's middle cut in three at their centroids, `times` over:
+/// needles there, and large triangles on the other side.
+TriangleMesh unevenlyCut(const TriangleMesh& mesh, int times);
 /// Both meshes side by side in one, nothing merged.
 TriangleMesh joined(const TriangleMesh& a, const TriangleMesh& b);
 

@@ -4,6 +4,7 @@
 #include "core/mesh/components.h"
 #include "core/mesh/signed_volume.h"
 
+#include <numeric>
 #include <utility>
 
 namespace massprops {
@@ -26,7 +27,11 @@ void deliverOffsetSurface(const Solid& solid, const PosedModel& posed, const Cav
                           const CavityResult& cavity, const std::vector<int>& vertexOf,
                           const std::function<Points(const Points&)>& representable,
                           Delivery& result) {
-  const std::vector<int> places = placesInSolid(posed, vertexOf);
+  std::vector<int> places = placesInSolid(posed, vertexOf);
+  if (vertexOf.empty()) {
+    places.resize(static_cast<std::size_t>(cavity.inner.rows()));
+    std::iota(places.begin(), places.end(), 0);
+  }
   Points positions = representable(toModel(posed.frame, placed(cavity.inner, places)));
   Faces faces = cavity.cavity.faces;
   if (posed.open) {

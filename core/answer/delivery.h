@@ -19,9 +19,9 @@ struct Delivery {
   std::optional<TriangleMesh> outer; ///< when it is not the input's
 };
 
-/// `vertexOf`: of an offset surface, for every vertex of what moved that of the posed model;
-/// `representable`: rounds to what the caller can store. Where the search found nothing, nothing
-/// but a body with a foot.
+/// `vertexOf`: of an offset surface, for every vertex of what moved that of the posed model, or
+/// empty; `representable`: rounds to what the caller can store. Where the search found nothing,
+/// nothing but a body with a foot.
 Delivery deliver(const Solid& solid, const PosedModel& posed, const CavityTask& task,
                  const CavityResult& cavity, const std::vector<int>& vertexOf,
                  const std::function<Points(const Points&)>& representable);

@@ -64,14 +64,9 @@ void requireSensibleHoles(const Options& options, double diagonal) {
 
 } // namespace
 
-void requireSensible(const Options& options, Eigen::Index vertexCount, double diagonal) {
+void requireSensible(const Options& options, double diagonal) {
   require(options.basisSize >= 1, "basis_k is " + std::to_string(options.basisSize) +
                                       ": give at least 1; 36 suits most models.");
-  require(options.basisSize < vertexCount,
-          "basis_k is " + std::to_string(options.basisSize) + ", but this model has only " +
-              std::to_string(vertexCount) +
-              " vertices: lower basis_k below that, or refine the model with Remeshing > "
-              "Subdivision Surfaces: Midpoint.");
   for (const std::optional<double>& radius : {options.radiusX, options.radiusY}) {
     require(!radius || (finite(*radius) && *radius > 0.0),
             "radius_x and radius_y must be positive, or 0 to take them from the model.");

@@ -56,8 +56,8 @@ struct Weights {
 struct Options {
   GoalKind goal = GoalKind::Stand;
   CavityShape cavityShape = CavityShape::Automatic;
-  /// k, the number of harmonic basis functions; less than the number of vertices and at least the
-  /// number of the goal's equalities (goals/registry.h).
+  /// k, the number of harmonic basis functions; less than the vertices of what moves inwards and at
+  /// least the number of the goal's equalities (goals/registry.h).
   int basisSize = 36;
   /// Half axes of the elliptic contact area along the two horizontal axes that follow the up axis
   /// cyclically (x, y for +Z); length. Empty: taken from the model's ground contacts.
@@ -120,7 +120,7 @@ inline bool standsOnContacts(GoalKind goal) {
 }
 
 /// \throw InvalidInput when an option is absurd in itself or for a model of that size
-void requireSensible(const Options& options, Eigen::Index vertexCount, double diagonal);
+void requireSensible(const Options& options, double diagonal);
 /// Density of what is in the cavity once it is printed and filled, g/cm³.
 double contentsDensity(const Options& options);
 

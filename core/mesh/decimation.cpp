@@ -57,8 +57,10 @@ struct Quadric {
 /// The surface while its edges collapse. Face f has the half-edges 3f, 3f+1, 3f+2.
 class QuadricDecimation {
 public:
-  QuadricDecimation(const Points& vertices, const Faces& faces, double leastAngle)
-      : x_(vertices), leastAngle_(leastAngle), corner_(faces.data(), faces.data() + faces.size()),
+  QuadricDecimation(const Points& vertices, const Faces& faces, const DecimationTarget& target)
+      : x_(vertices), leastAngle_(target.leastAngle),
+        longestSquared_(target.longestEdge * target.longestEdge),
+        corner_(faces.data(), faces.data() + faces.size()),
         opposite_(oppositeHalfEdges(vertices.rows(), faces)),
         outgoing_(static_cast<std::size_t>(vertices.rows()), -1),
         collapsedOnto_(static_cast<std::size_t>(vertices.rows())),
@@ -250,6 +252,7 @@ private:
       const Vec3 pc = point(c);
       const Vec3 before = areaNormal(from, pb, pc);
       const Vec3 after = areaNormal(target, pb, pc);
+      if ((pb - target).squaredNorm() > longestSquared_) return false;
       const double longest = std::max(
           {(pb - target).squaredNorm(), (pc - target).squaredNorm(), (pc - pb).squaredNorm()});
       const double areas = before.norm() * after.norm();
@@ -312,7 +315,7 @@ private:
   }
 
   const Points& x_;
-  double leastAngle_;
+  double leastAngle_, longestSquared_;
   std::vector<int> corner_, opposite_, outgoing_;
   std::vector<int> collapsedOnto_; ///< a vertex onto itself while it is there
   std::vector<Quadric> quadrics_;
@@ -331,7 +334,7 @@ bool isMuchLess(Eigen::Index size, const Points& vertices) {
 DecimatedMesh decimated(const Points& vertices, const Faces& faces,
                         const DecimationTarget& target) {
   if (isMuchLess(target.least, vertices)) {
-    QuadricDecimation surface(vertices, faces, target.leastAngle);
+    QuadricDecimation surface(vertices, faces, target);
     surface.reduceTo(target);
     if (isMuchLess(surface.size(), vertices)) return surface.copy();
   }

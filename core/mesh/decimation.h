@@ -3,6 +3,7 @@
 
 #include "core/base/types.h"
 
+#include <limits>
 #include <vector>
 
 namespace massprops {
@@ -14,6 +15,8 @@ struct DecimationTarget {
   Eigen::Index most, least;
   double distance;
   double leastAngle = 0.0; ///< degrees; no triangle gets a smaller one that had a larger
+  /// No edge becomes longer; a length in the vertices' unit.
+  double longestEdge = std::numeric_limits<double>::infinity();
 };
 
 struct DecimatedMesh {

@@ -17,8 +17,8 @@ namespace massprops {
 
 /// Nothing of it changes while a cavity is looked for. Working frame.
 struct MovingSurface {
-  /// n×3, and triangles: the outer surface, with what closes an open one, or a decimated copy of
-  /// it. Closed, outward.
+  /// n×3, and triangles: the outer surface, with what closes an open one, or a copy of it, coarser
+  /// or finer. Closed, outward.
   Points vertices;
   Faces faces;
   /// Lumped, n entries of total 1.
@@ -31,18 +31,20 @@ struct MovingSurface {
   DecimatedMesh carrier = {};
   /// n×n cotangent Laplacian; empty where the smoothness of the offsets has no weight.
   SparseMatrix laplacian = {};
+  bool isCopy = false; ///< or else the outer surface itself
 };
 
 struct CoarseningOptions {
   int basisSize = 36;
-  bool isDecimated = true;     ///< if not, the surface itself moves
+  bool mayCopy = true;         ///< if not, the surface itself moves
   bool isCarrierCoarse = true; ///< if not, the functions live on what moves
   bool isSmooth = false;       ///< whether the Laplacian of what moves is needed
 };
 
 struct Coarsening {
   std::shared_ptr<const MovingSurface> moving;
-  /// For every vertex of what moves the vertex of the posed model that it is.
+  /// For every vertex of what moves the vertex of the posed model that it is; empty where there are
+  /// others among them.
   std::vector<int> vertexOf;
   /// n×3: the skeleton point of every vertex of what moves, smoothed over the surface.
   Points axis;
@@ -50,9 +52,11 @@ struct Coarsening {
   double secondsCopy = 0.0, secondsSkeleton = 0.0, secondsBasis = 0.0;
 };
 
-/// Decimates the model twice, for what moves and for what carries the functions, and calculates
-/// skeleton and basis on the coarser copy. `whenCopied`: called in between; `beside`: work for the
-/// core that the skeleton leaves free, called from another thread.
+/// Copies the model twice, for what moves and for what carries the functions, and calculates
+/// skeleton and basis on the coarser copy. A surface of long or uneven triangles is refined first.
+/// `whenCopied`: called in between; `beside`: work for the core that the skeleton leaves free,
+/// called from another thread.
+/// \throw InvalidInput when the copies have too few vertices for the basis
 Coarsening coarsen(const PosedModel& posed, const CoarseningOptions& options,
                    const std::function<void()>& whenCopied, const std::function<void()>& beside);
 

@@ -11,7 +11,7 @@ struct Schedule {
   static constexpr int kEnd = 95; ///< of the search
 };
 
-/// `isDecimated`: whether a copy of the model's n vertices moves inwards.
-Schedule scheduleFor(Eigen::Index vertexCount, int basisSize, bool isDecimated);
+/// `mayCopy`: whether a copy of the model's n vertices moves inwards.
+Schedule scheduleFor(Eigen::Index vertexCount, int basisSize, bool mayCopy);
 
 } // namespace massprops

@@ -176,7 +176,7 @@ TEST(Foot, MayBeGiven) {
   options.footDepth = 2.0;
   EXPECT_THROW(onFoot(makeSolid(block), options), InvalidInput);
   options.footDepth = 0.0;
-  EXPECT_THROW(requireSensible(options, 1000, 1.0), InvalidInput);
+  EXPECT_THROW(requireSensible(options, 1.0), InvalidInput);
 }
 
 TEST(Foot, LeavesExistingCavitiesWhole) {
