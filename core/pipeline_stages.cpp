@@ -2,6 +2,7 @@
 
 #include "core/answer/delivery.h"
 #include "core/answer/hollowing_report.h"
+#include "core/answer/host_rounding.h"
 #include "core/answer/skeleton_marks.h"
 #include "core/base/option_pairs.h"
 #include "core/base/parallel.h"
@@ -516,6 +517,7 @@ Report report(const Preparation& model, const Foundation& foundation, const Sear
   }
   stages.skeletonFailures = coarse.skeleton.failedComponents;
   stages.largestWall = found.largestWall;
+  stages.rounding = roundingStep(options.representable, model.solid.vertices());
   stages.shapeReason = found.shapeReason;
   stages.secondsCheck = model.seconds + foundation.secondsCrossings;
   stages.secondsCopy = coarse.secondsCopy;

@@ -34,6 +34,7 @@ constexpr Filter kFilters[] = {
     {"Subdivision Surfaces: Midpoint", "meshing_surface_subdivision_midpoint"},
     {"Surface Reconstruction: Screened Poisson",
      "generate_surface_reconstruction_screened_poisson"},
+    {"Transform: Translate, Center", "compute_matrix_from_translation"},
 };
 
 } // namespace

@@ -235,6 +235,15 @@ std::string unitsInWords(double diagonal) {
          ", for grams and lengths to be those of the print.";
 }
 
+/// Where the caller's coordinates are too coarse for the wall, what to do about it, after a space.
+std::string adviceOnRounding(double rounding, double wall) {
+  constexpr double kCoarse = 0.01; // of the wall
+  if (rounding <= kCoarse * wall) return "";
+  return " Where the model lies, coordinates are stored in steps of " + toString(rounding) +
+         ", more than a hundredth of the wall: move it to the origin with Normals, Curvatures and "
+         "Orientation > Transform: Translate, Center, then run again.";
+}
+
 /// In words, and as numbers for hosts that take no text from a filter.
 void addRepairs(const Repairs& repairs, Report& report) {
   report.add("repairs", repairs.describe());
@@ -356,7 +365,8 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Ve
                  message(task, verdicts, cavity, before, after,
                          stages.largestWall * posed.frame.length, !stages.certificates.empty()) +
                  aboutDrainage(posed, verdicts.after, after, stages, options) +
-                 remark(verdicts.after, after.mass) + footInWords(posed, isSolved));
+                 remark(verdicts.after, after.mass) + footInWords(posed, isSolved) +
+                 adviceOnRounding(stages.rounding, task.wall * posed.frame.length));
   const std::string units = unitsInWords(posed.frame.length);
   if (!units.empty()) report.add("units", units);
   report.add("objective_before", before.objective);
@@ -392,6 +402,7 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Ve
   if (hasCavity && stages.solidDepth) {
     report.add("solid_depth", *stages.solidDepth * posed.frame.length);
   }
+  report.add("rounding_step", stages.rounding);
   report.add("cavity_components", hollow ? cavity.inspection.components : 0);
   if (cavity.status == CavityStatus::NoRoom) {
     report.add("largest_wall", stages.largestWall * posed.frame.length);

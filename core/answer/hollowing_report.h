@@ -26,6 +26,7 @@ struct Stages {
   std::optional<double> leastWall, solidDepth;
   double largestWall = 0.0;           ///< working length; of use when there is no room for a cavity
   const Drainage* drainage = nullptr; ///< null: no holes are asked for, or there is no cavity
+  double rounding = 0.0; ///< length: the step between coordinates that the caller can store
   std::optional<PrintMargins> margins; ///< where the goal is reached
   /// Of all the goal's conditions, where it is missed and that no cavity can reach it was proved.
   std::vector<Certificate> certificates;
