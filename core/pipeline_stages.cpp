@@ -223,7 +223,7 @@ std::string reasonForBestPossible(const Options& options, const OptimalBound& bo
   const Body before = inputBody(found.task);
   const Body after = isFound ? hollowBody(found.task, found.cavity) : before;
   const double gap = gapToBound(bound, before, after);
-  constexpr double kFar = 0.03;
+  constexpr double kFar = 0.02;
   // With a weight on smoothness it is far by intention.
   if (gap > kFar && options.weights.smoothness == 0.0) {
     const double rounded = std::round(1000.0 * gap) / 10.0;
