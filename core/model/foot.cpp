@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace massprops {
@@ -30,13 +31,9 @@ struct Upright {
         ground(vertices.col(2).minCoeff()), height(vertices.col(2).maxCoeff() - ground) {}
 };
 
-/// Below existing cavities and the openings of an open surface, above the ground.
+/// Below the openings of an open surface, above the ground.
 double roomBelow(const Solid& solid, const Upright& upright) {
   double room = upright.height;
-  if (solid.cavities().vertices.rows() > 0) {
-    const Points cavities = solid.cavities().vertices * upright.rotation.transpose();
-    room = cavities.col(2).minCoeff() - upright.ground;
-  }
   for (const int v : solid.rim()) room = std::min(room, upright.vertices(v, 2) - upright.ground);
   return room - kContactHeight * solid.diagonal();
 }
@@ -92,6 +89,28 @@ bool fallsApart(const Pieces& before, const Pieces& after) {
   return after.bodies > before.bodies || after.crumbs > 2 * before.crumbs;
 }
 
+/// Existing cavities that the cut does not open, and how many it does.
+struct Uncut {
+  TriangleMesh cavities;
+  int opened = 0;
+};
+
+Uncut uncutCavities(const Solid& solid, const Upright& upright, double level) {
+  const TriangleMesh& all = solid.cavities();
+  Uncut result;
+  std::vector<TriangleMesh> kept;
+  for (Submesh& cavity : componentMeshes(all.vertices, all.faces)) {
+    const Points turned = cavity.mesh.vertices * upright.rotation.transpose();
+    if (turned.col(2).minCoeff() > level) {
+      kept.push_back(std::move(cavity.mesh));
+    } else {
+      ++result.opened;
+    }
+  }
+  result.cavities = assembled(kept);
+  return result;
+}
+
 /// Empty where the cut surface bounds no solid, falls into more pieces, or has another foot than
 /// the plane cuts out.
 std::optional<Footing> cutBy(double depth, double merged, const Solid& solid,
@@ -105,10 +124,11 @@ std::optional<Footing> cutBy(double depth, double merged, const Solid& solid,
       cutAbove({upright.vertices, solid.skin()}, upright.ground + depth, merged, rounded);
   if (!cut) return std::nullopt;
   const TriangleMesh rest{cut->mesh.vertices * upright.rotation, cut->mesh.faces};
+  const Uncut uncut = uncutCavities(solid, upright, upright.ground + depth);
   Repairs before = solid.repairs();
-  before.replacedCavities = 0;
+  before.replacedCavities = uncut.opened; // to which the others are added
   try {
-    Footing result{makeSolid(assembled({rest, solid.cavities()}), !solid.isLid().empty(),
+    Footing result{makeSolid(assembled({rest, uncut.cavities}), !solid.isLid().empty(),
                              upright.rotation, before),
                    Foot{depth, cut->spread},
                    {}};
@@ -150,7 +170,7 @@ Footing onGivenFoot(const Solid& solid, const Upright& upright, const Options& o
     throw InvalidInput("foot_depth is " + std::to_string(options.footDepth) +
                        ", but the model can be cut by less than " +
                        std::to_string(std::max(room, 0.0)) +
-                       " only: at most to half of its height, and not into cavities or openings. "
+                       " only: at most to half of its height, and not into openings. "
                        "Give less, or set foot to Automatic.");
   }
   const LowestPart lowest(upright.vertices, solid.skin(), (1.0 + kSlack) * options.footDepth);

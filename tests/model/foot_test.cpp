@@ -3,6 +3,7 @@
 
 #include "core/base/angles.h"
 #include "core/base/tolerances.h"
+#include "core/mesh/components.h"
 #include "core/model/frame.h"
 #include "core/pipeline.h"
 #include "judge/checks.h"
@@ -179,25 +180,23 @@ TEST(Foot, MayBeGiven) {
   EXPECT_THROW(requireSensible(options, 1.0), InvalidInput);
 }
 
-TEST(Foot, LeavesExistingCavitiesWhole) {
+TEST(Foot, FillsExistingCavitiesThatItWouldOpen) {
   TriangleMesh hollow = sphere(20);
-  TriangleMesh inner = scaled(sphere(8), 0.9999);
+  TriangleMesh inner = scaled(sphere(8), 0.99);
   for (Eigen::Index f = 0; f < inner.faces.rows(); ++f)
     std::swap(inner.faces(f, 1), inner.faces(f, 2));
-  const Eigen::Index n = hollow.vertices.rows();
-  const Eigen::Index m = hollow.faces.rows();
-  hollow.vertices.conservativeResize(n + inner.vertices.rows(), 3);
-  hollow.vertices.bottomRows(inner.vertices.rows()) = 0.99 * inner.vertices;
-  hollow.faces.conservativeResize(m + inner.faces.rows(), 3);
-  hollow.faces.bottomRows(inner.faces.rows()) = inner.faces.array() + static_cast<int>(n);
+  hollow = assembled({hollow, inner});
   const Footing footing = onFoot(makeSolid(hollow), standing());
   ASSERT_TRUE(footing.foot);
   EXPECT_EQ(footing.solid.cavities().faces.rows(), inner.faces.rows());
   EXPECT_EQ(footing.solid.repairs().replacedCavities, 1);
   Options given = standing();
   given.foot = FootCut::Given;
-  given.footDepth = 0.02;
-  EXPECT_THROW(onFoot(makeSolid(hollow), given), InvalidInput);
+  given.footDepth = 0.1;
+  const Footing filled = onFoot(makeSolid(hollow), given);
+  ASSERT_TRUE(filled.foot);
+  EXPECT_EQ(filled.solid.cavities().faces.rows(), 0);
+  EXPECT_EQ(filled.solid.repairs().replacedCavities, 1);
 }
 
 /// All that is promised of a run that cut a foot.
