@@ -9,10 +9,9 @@ endif()
 set(_static ${PROJECT_SOURCE_DIR}/build/static-libraries)
 execute_process(COMMAND ${PROJECT_SOURCE_DIR}/scripts/build_static_libraries.sh ${_static}
                 COMMAND_ERROR_IS_FATAL ANY)
-# The variables that CGAL and NLopt are found by.
+# The variables that CGAL finds them by; the headers are those of the system.
 foreach(library IN ITEMS gmp gmpxx mpfr)
-  string(TOUPPER ${library} _prefix)
-  set(${_prefix}_INCLUDE_DIR ${_static}/include CACHE PATH "" FORCE)
-  set(${_prefix}_LIBRARIES ${_static}/lib/lib${library}.a CACHE FILEPATH "" FORCE)
+  string(TOUPPER ${library}_LIBRARIES _variable)
+  set(${_variable} ${_static}/lib/lib${library}.a CACHE FILEPATH "" FORCE)
 endforeach()
-set(NLopt_DIR ${_static}/lib/cmake/nlopt CACHE PATH "" FORCE)
+set(MASSPROPS_STATIC_NLOPT ${_static}/lib/libnlopt.a)
