@@ -4,19 +4,22 @@
 //
 // usage: wild walls shapes goals files…
 //   walls   in per cent of the diagonal: 1,2
-//   shapes  entries of cavity_shape: 0,1,2
+//   shapes  entries of cavity_shape: 0,1,2. With 1 and 2 their processor times are compared at last
 //   goals   names below, or all: stand,mass. Where it says so the contact is an ellipse with half
 //           axes of a fiftieth of the diagonal, for models that touch the ground in a point.
+//   files   name.obj:2 is the model with every triangle cut in four, twice
 #include "core/base/parallel.h"
 #include "core/base/stopwatch.h"
 #include "core/pipeline.h"
 #include "core/vcg_conversion.h"
 #include "judge/checks.h"
 #include "judge/guarantee.h"
+#include "shapes.h"
 
 #include <vcg/complex/algorithms/clean.h>
 #include <wrap/io_trimesh/import.h>
 
+#include <malloc.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -26,10 +29,12 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <functional>
 #include <map>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -45,7 +50,10 @@ struct Face : vcg::Face<Used, vcg::face::VertexRef, vcg::face::BitFlags> {};
 struct Mesh : vcg::tri::TriMesh<std::vector<Vertex>, std::vector<Face>> {};
 
 /// As the host opens it, equal vertices merged, with a longest side of 100.
-TriangleMesh readMesh(const std::string& path) {
+TriangleMesh readMesh(const std::string& file) {
+  const std::size_t colon = file.find_last_of(':');
+  const std::string path = file.substr(0, colon);
+  const int cuts = colon == std::string::npos ? 0 : std::stoi(file.substr(colon + 1));
   Mesh mesh;
   namespace io = vcg::tri::io;
   if (path.size() > 4 && path.compare(path.size() - 4, 4, ".obj") == 0) {
@@ -62,6 +70,7 @@ TriangleMesh readMesh(const std::string& path) {
   vcg::tri::Clean<Mesh>::RemoveUnreferencedVertex(mesh);
   if (mesh.VN() == 0) return {};
   TriangleMesh result = fromVcg(mesh, Placement::Identity());
+  for (int i = 0; i < cuts; ++i) result = testing::subdivided(result);
   const double side =
       (result.vertices.colwise().maxCoeff() - result.vertices.colwise().minCoeff()).maxCoeff();
   // As a float mesh stores it.
@@ -109,6 +118,21 @@ struct Line {
   double gap = -1.0;
   double cpu = 0.0;
 };
+
+/// Of this process in megabytes, by its key in /proc: VmRSS now, VmHWM at most.
+double memory(const std::string& key) {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.compare(0, key.size(), key) == 0) return std::stod(line.substr(key.size() + 1)) / 1024;
+  }
+  return NAN;
+}
+
+/// What reading a model took does not count from here on.
+void forgetMostMemory() {
+  malloc_trim(0);
+  std::ofstream("/proc/self/clear_refs") << 5;
+}
 
 double cpuSeconds() {
   rusage usage{};
@@ -175,6 +199,8 @@ Line measure(const std::string& path, const Asked& asked, double wallShare, Cavi
                                    100.0 * wallShare, static_cast<int>(shape));
   char* rest = line.text + length;
   const std::size_t room = sizeof line.text - static_cast<std::size_t>(length);
+  forgetMostMemory();
+  const double memoryBefore = memory("VmRSS:");
   const double before = cpuSeconds();
   const Stopwatch time;
   Result result;
@@ -188,8 +214,7 @@ Line measure(const std::string& path, const Asked& asked, double wallShare, Cavi
   }
   const double seconds = time.seconds();
   line.cpu = cpuSeconds() - before;
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
+  const double memoryAbove = memory("VmHWM:") - memoryBefore;
   const std::string verdict = asked.verdict;
   const double solid = number(result, verdict + "_before");
   const double limit = number(result, verdict + "_limit");
@@ -208,13 +233,13 @@ Line measure(const std::string& path, const Asked& asked, double wallShare, Cavi
   }
   const auto delivered = valueOf<std::string>(result, "cavity_shape", "");
   std::snprintf(
-      rest, room, "%-4s %8.3f %8.3f %8.3f %7.2f%%%s %8.1e %7ld %7.2f %7.2f %5.0f  %s%.40s",
+      rest, room, "%-4s %8.3f %8.3f %8.3f %7.2f%%%s %8.1e %7ld %7.2f %7.2f %7.2f %5.0f  %s%.40s",
       line.kind == Line::NothingFits ? "none"
       : line.solved                  ? "yes"
                                      : "no",
       solid, after, limit, 100.0 * line.gap, line.isSmall ? "*" : " ",
       number(result, "max_constraint_violation"), static_cast<long>(result.inner.faces.rows()),
-      line.cpu, seconds, static_cast<double>(usage.ru_maxrss) / 1024.0,
+      line.cpu, seconds, number(result, "seconds_check"), memoryAbove,
       fault.empty() ? "" : ("BROKEN: " + fault + "; ").c_str(), delivered.c_str());
   return line;
 }
@@ -222,7 +247,7 @@ Line measure(const std::string& path, const Asked& asked, double wallShare, Cavi
 /// In a process of its own: memory is that of the case, and a crash or a case without an end is
 /// only its own.
 Line measureApart(const std::string& path, const Asked& asked, double wall, CavityShape shape) {
-  constexpr unsigned kSeconds = 120;
+  constexpr unsigned kSeconds = 300;
   int ends[2];
   Line line;
   if (pipe(ends) != 0) return line;
@@ -293,6 +318,22 @@ void summarize(const std::string& title, const std::vector<Line>& lines) {
               gaps.size(), small, middle(seconds), seconds.empty() ? NAN : seconds.back());
 }
 
+/// Processor time of the best possible cavity over that of the offset surface, model by model.
+void compare(const std::string& title, const std::vector<Line>& offset,
+             const std::vector<Line>& best) {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < offset.size(); ++i) {
+    const bool areBoth = std::max(offset[i].kind, best[i].kind) <= Line::NothingFits;
+    if (areBoth) ratios.push_back(best[i].cpu / offset[i].cpu);
+  }
+  if (ratios.empty()) return;
+  std::sort(ratios.begin(), ratios.end());
+  std::printf("%-32s Best possible over Offset surface, CPU, %zu models: median %.2f, largest "
+              "%.2f, above 2: %ld\n",
+              title.c_str(), ratios.size(), ratios[ratios.size() / 2], ratios.back(),
+              static_cast<long>(ratios.end() - std::upper_bound(ratios.begin(), ratios.end(), 2)));
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -301,10 +342,10 @@ int main(int argc, char** argv) {
     return 2;
   }
   const std::vector<std::string> wanted = words(argv[3]);
-  std::printf("%-38s %7s %-17s %4s %s %-4s %8s %8s %8s %8s %8s %7s %7s %7s %5s\n", "model", "faces",
-              "goal", "wall", "s", "done", "before", "after", "limit", "gap", "violat.", "inner",
-              "CPU s", "s", "MB");
-  std::map<std::string, std::vector<Line>> byTitle;
+  std::printf("%-38s %7s %-17s %4s %s %-4s %8s %8s %8s %8s %8s %7s %7s %7s %7s %5s\n", "model",
+              "faces", "goal", "wall", "s", "done", "before", "after", "limit", "gap", "violat.",
+              "inner", "CPU s", "s", "check s", "MB");
+  std::map<std::pair<std::string, std::string>, std::vector<Line>> byTitle; // and by shape
   for (int i = 4; i < argc; ++i) {
     for (const Asked& asked : goals()) {
       if (wanted.front() != "all" &&
@@ -316,12 +357,14 @@ int main(int argc, char** argv) {
                                          static_cast<CavityShape>(std::stoi(shape)));
           std::printf("%s\n", line.text);
           std::fflush(stdout);
-          std::stringstream title;
-          title << asked.name << ", wall " << wall << " %, shape " << shape;
-          byTitle[title.str()].push_back(line);
+          byTitle[{std::string(asked.name) + ", wall " + wall + " %", shape}].push_back(line);
         }
       }
     }
   }
-  for (const auto& [title, lines] : byTitle) summarize(title, lines);
+  for (const auto& [title, lines] : byTitle) {
+    summarize(title.first + ", shape " + title.second, lines);
+    const auto offset = byTitle.find({title.first, "1"});
+    if (title.second == "2" && offset != byTitle.end()) compare(title.first, offset->second, lines);
+  }
 }
