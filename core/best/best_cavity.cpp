@@ -63,8 +63,8 @@ struct Candidate {
 
 class Polishing {
 public:
-  Polishing(const CavityTask& task, const LayeredQuadric& quadric, double edge)
-      : task_(task), quadric_(quadric), edge_(edge) {}
+  Polishing(const CavityTask& task, const LayeredQuadric& quadric, const CavityContour& found)
+      : task_(task), quadric_(quadric), edge_(found.edge), clearance_(found.clearance) {}
 
   int evaluations() const { return evaluations_; }
   double secondsInspection() const { return secondsInspection_; }
@@ -74,8 +74,10 @@ public:
     return {contour, contour.mesh.vertices, resultOf(task_, contour.mesh)};
   }
 
-  void moveCreases(Contour& contour) {
+  /// Whether the wall is kept afterwards.
+  bool moveCreases(double wall, Contour& contour) {
     evaluations_ += polish(task_, quadric_, Moving::CutAndCreases, edge_, {}, contour).evaluations;
+    return keepWall(clearance_, wall, contour.mesh).empty();
   }
 
   /// Not inspected. `before`: where the vertices come from.
@@ -112,8 +114,8 @@ private:
 
   void inspectResult(CavityResult& result) {
     const Stopwatch time;
-    result.inspection =
-        inspect(result.inner, result.cavity.faces, task_.surface, task_.wall, false);
+    result.inspection = inspect(result.inner, result.cavity.faces, task_.surface, task_.wall, false,
+                                LookFirst::ForAll, &clearance_);
     secondsInspection_ += time.seconds();
   }
 
@@ -141,6 +143,7 @@ private:
   const CavityTask& task_;
   const LayeredQuadric& quadric_;
   double edge_;
+  ClearanceQuery clearance_;
   int evaluations_ = 0;
   double secondsInspection_ = 0.0;
 };
@@ -149,12 +152,11 @@ private:
 /// for triangles that give way to the wall cost more in one than in another.
 CavityResult polished(const CavityTask& task, const LayeredQuadric& quadric, double wall,
                       const CavityContour& found) {
-  Polishing polishing(task, quadric, found.edge);
+  Polishing polishing(task, quadric, found);
   std::vector<Candidate> candidates{polishing.unmoved(found.contour)};
   // Creases that move leave the walls' surface a little, and the constraints with it.
   Contour whole = found.contour;
-  polishing.moveCreases(whole);
-  if (keepWall(task.surface, wall, whole.mesh, &found.contour.mesh.vertices).empty())
+  if (polishing.moveCreases(wall, whole))
     candidates.push_back(polishing.adjusted(whole, found.contour.mesh.vertices));
   candidates.push_back(polishing.adjusted(found.contour, found.contour.mesh.vertices));
   std::stable_sort(candidates.begin(), candidates.end(),

@@ -66,7 +66,7 @@ Contour smoothed(const Region& region, double edge, Contour contour) {
 /// Moves the corners of faces that cross each other to the middle of their neighbours, where the
 /// walls allow it, until none do; the faces that still do. Where few cross that is quicker by far
 /// than to make the surface again.
-std::vector<int> untangle(const TriangleTree& surface, double wall, TriangleMesh& mesh) {
+std::vector<int> untangle(ClearanceQuery& clearance, double wall, TriangleMesh& mesh) {
   constexpr int kRounds = 4;
   std::vector<int> crossing = selfIntersectingFaces(mesh.vertices, mesh.faces);
   for (int round = 0; round < kRounds && !crossing.empty(); ++round) {
@@ -80,7 +80,7 @@ std::vector<int> untangle(const TriangleTree& surface, double wall, TriangleMesh
         mesh.vertices.row(v) = sum / static_cast<double>(around.size());
       }
     }
-    if (!keepWall(surface, wall, mesh, &before).empty()) {
+    if (!keepWall(clearance, wall, mesh).empty()) {
       mesh.vertices = before;
       break;
     }
@@ -96,13 +96,13 @@ struct Troubles {
   bool areNone() const { return thin.empty() && crossing.empty(); }
 };
 
-Troubles troublesLeft(const TriangleTree& surface, double wall, Contour& contour) {
+Troubles troublesLeft(ClearanceQuery& clearance, double wall, Contour& contour) {
   TriangleMesh& mesh = contour.mesh;
   Troubles troubles;
-  for (const int v : keepWall(surface, wall, mesh))
+  for (const int v : keepWall(clearance, wall, mesh))
     troubles.thin.emplace_back(mesh.vertices.row(v).transpose());
   if (!troubles.thin.empty()) return troubles;
-  for (const int f : untangle(surface, wall, mesh)) {
+  for (const int f : untangle(clearance, wall, mesh)) {
     for (const int v : mesh.faces.row(f))
       troubles.crossing.emplace_back(mesh.vertices.row(v).transpose());
   }
@@ -113,18 +113,23 @@ Troubles troublesLeft(const TriangleTree& surface, double wall, Contour& contour
 
 std::optional<CavityContour> cavityContour(const OpenedSet& set,
                                            const std::optional<LayeredQuadric>& quadric) {
-  if (!set.deep) return CavityContour{{}, set.edge};
+  ClearanceQuery fresh(set.surface);
+  if (!set.deep) return CavityContour{{}, set.edge, fresh};
   const double leastVolume = std::pow(set.width, 3);
-  const Region region{set.surface, set.wall, &*set.deep, quadric, set.edge};
+  // Vertices on the border shall not count as too near for their last digits.
+  constexpr double kMore = 1e-4;
+  const Region region{set.surface, (1.0 + kMore) * set.wall, &*set.deep, quadric, set.edge};
   BorderLattice lattice = borderLattice(region, set.edge);
   // What the cubes are too large for becomes solid.
   constexpr int kRounds = 9;
   for (int round = 0; round < kRounds; ++round) {
     const Contour raw = withoutLooseParts(dualContour(lattice), leastVolume);
-    if (raw.mesh.faces.rows() == 0) return CavityContour{{}, set.edge};
+    if (raw.mesh.faces.rows() == 0) return CavityContour{{}, set.edge, fresh};
     Contour contour = smoothed(region, set.edge, raw);
-    const Troubles troubles = troublesLeft(set.surface, set.wall, contour);
-    if (troubles.areNone()) return CavityContour{std::move(contour), set.edge};
+    ClearanceQuery clearance(set.surface);
+    const Troubles troubles = troublesLeft(clearance, set.wall, contour);
+    if (troubles.areNone())
+      return CavityContour{std::move(contour), set.edge, std::move(clearance)};
     takeOut(troubles.thin, lattice);
     takeOut(troubles.crossing, lattice);
   }

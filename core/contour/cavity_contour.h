@@ -3,6 +3,7 @@
 
 #include "core/contour/dual_contour.h"
 #include "core/contour/opened_set.h"
+#include "core/query/surface_distance.h"
 
 #include <optional>
 
@@ -10,8 +11,9 @@ namespace massprops {
 
 struct CavityContour {
   Contour contour;
-  /// Of the cubes that it was made with.
-  double edge = 0.0;
+  double edge; ///< of the cubes that it was made with
+  /// Has measured it.
+  ClearanceQuery clearance;
 };
 
 /// The points of the opened set where the quadric is positive, if one is given. Closed components,

@@ -29,6 +29,12 @@ public:
   /// `horizon`: distances above it need not be exact.
   Clearance measure(const Points& vertices, const Faces& faces, double horizon);
 
+  /// Of the last measurement, for every face: below its horizon exact to a billionth, above it at
+  /// least the horizon.
+  const Vector& faceDistances() const { return memory_.faceBounds; }
+
+  const TriangleTree& other() const { return other_; }
+
   /// Where vertices and faces were, and how far away they are at least.
   struct Memory {
     Points vertices;
