@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace massprops {
@@ -14,32 +15,39 @@ Place cornerStep(int i) {
   return {i & 1, i >> 1 & 1, i >> 2};
 }
 
-struct Cube {
+/// A cube of twice the edge that the border may pass through.
+struct Block {
   Place place;
-  bool isDeep; ///< so far behind the walls that only the quadric matters
+  /// In its middle, of what the walls leave. Empty: it is so far behind them that only the quadric
+  /// matters.
+  std::optional<Sample> middle;
+  bool isOfSurface = false; ///< see `InsetProbe`
 };
 
-/// Halves cubes that the border may pass through, down to the wanted size.
+/// Halves cubes that the border may pass through.
 class BorderSearch {
 public:
   static constexpr int kTopLevel = 4;
 
-  BorderSearch(const Region& region, Vec3 origin, double edge, std::vector<Cube>& found)
+  BorderSearch(const Region& region, Vec3 origin, double edge, std::vector<Block>& found)
       : region_(region), probe_(region), origin_(std::move(origin)), edge_(edge), found_(found) {}
 
   void visit(const Place& place, int level, bool isDeep) {
     const double size = edge_ * (1 << level);
     const double radius = 0.5 * std::sqrt(3.0) * size;
     const Vec3 centre = origin_ + edge_ * place.cast<double>() + Vec3::Constant(0.5 * size);
+    Block block{place, {}};
     if (!isDeep) {
-      const double value = probe_.at(centre, radius).value;
-      if (value <= -radius) return;
-      isDeep = value >= radius;
+      block.middle = probe_.at(centre, radius);
+      block.isOfSurface = probe_.isOfSurface();
+      if (block.middle->value <= -radius) return;
+      isDeep = block.middle->value >= radius;
     }
     const Side side = region_.quadric ? sideOfCut(region_, centre, radius) : Side::Positive;
     if (side == Side::Negative || (isDeep && side == Side::Positive)) return;
-    if (level == 0) {
-      found_.push_back({place, isDeep});
+    if (level == 1) {
+      if (isDeep) block.middle.reset();
+      found_.push_back(std::move(block));
       return;
     }
     for (int i = 0; i < 8; ++i)
@@ -51,23 +59,23 @@ private:
   InsetProbe probe_;
   Vec3 origin_;
   double edge_;
-  std::vector<Cube>& found_;
+  std::vector<Block>& found_;
 };
 
-std::vector<Cube> borderCubes(const Region& region, const Vec3& origin, const Vec3& extent,
-                              double edge) {
+std::vector<Block> borderBlocks(const Region& region, const Vec3& origin, const Vec3& extent,
+                                double edge) {
   const double step = edge * (1 << BorderSearch::kTopLevel);
   const Place counts = (extent / step).array().ceil().max(1.0).cast<int>();
-  std::vector<std::vector<Cube>> parts(static_cast<std::size_t>(counts.prod()));
+  std::vector<std::vector<Block>> parts(static_cast<std::size_t>(counts.prod()));
   forChunks(counts.prod(), 1, [&](const Chunk& chunk) {
     const int n = static_cast<int>(chunk.number);
     const Place place(n % counts.x(), n / counts.x() % counts.y(), n / (counts.x() * counts.y()));
     BorderSearch(region, origin, edge, parts[static_cast<std::size_t>(n)])
         .visit(place * (1 << BorderSearch::kTopLevel), BorderSearch::kTopLevel, false);
   });
-  std::vector<Cube> cubes;
-  for (const auto& part : parts) cubes.insert(cubes.end(), part.begin(), part.end());
-  return cubes;
+  std::vector<Block> blocks;
+  for (const auto& part : parts) blocks.insert(blocks.end(), part.begin(), part.end());
+  return blocks;
 }
 
 /// Whether the marked corners of a cube are connected along its edges, and the others, too.
@@ -100,15 +108,18 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
+/// The number of a corner, which is added as one inside if it is not there.
+int cornerAt(const Place& place, BorderLattice& lattice) {
+  const int fresh = static_cast<int>(lattice.corners.size());
+  const int number = lattice.cornerAt.emplace(place, fresh).first->second;
+  if (number == fresh) lattice.corners.push_back({place, true, false, {}, {}, {}});
+  return number;
+}
+
 int addCube(const Place& place, BorderLattice& lattice) {
   const int number = static_cast<int>(lattice.cubes.size());
   std::array<int, 8> corners{};
-  for (int i = 0; i < 8; ++i) {
-    const Place cornerPlace = place + cornerStep(i);
-    const int fresh = static_cast<int>(lattice.corners.size());
-    corners[at(i)] = lattice.cornerAt.emplace(cornerPlace, fresh).first->second;
-    if (corners[at(i)] == fresh) lattice.corners.push_back({cornerPlace, true, false, {}, {}, {}});
-  }
+  for (int i = 0; i < 8; ++i) corners[at(i)] = cornerAt(place + cornerStep(i), lattice);
   lattice.cubes.push_back(corners);
   lattice.cubeAt.emplace(place, number);
   return number;
@@ -135,27 +146,131 @@ std::optional<Sample> chamferAt(const Corner& corner, double edge) {
   return Sample{(corner.inset->value + corner.cut->value - apart) / steepness, slope / steepness};
 }
 
-void sampleCorner(const Region& region, InsetProbe& probe, bool isNearWall, int c,
-                  BorderLattice& lattice) {
-  constexpr double kLeastValue = 1e-6;
+constexpr double kLeastValue = 1e-6; // edges; what is less is not inside
+
+void sampleCorner(const Region& region, InsetProbe& probe, int c, BorderLattice& lattice) {
   Corner& corner = lattice.corners[at(c)];
   const Vec3 x = lattice.positionOf(c);
-  if (isNearWall) corner.inset = probe.at(x, 2.0 * lattice.edge);
+  corner.inset = probe.at(x, 2.0 * lattice.edge);
   if (region.quadric) corner.cut = cutAt(region, x);
   corner.chamfer = chamferAt(corner, lattice.edge);
   corner.isInside = corner.value() > kLeastValue * lattice.edge;
 }
 
-/// `isNearWall`: for every corner whether it has a cube that is not deep.
-void sample(const Region& region, const std::vector<char>& isNearWall, BorderLattice& lattice) {
-  constexpr Eigen::Index kRun = 512;
-  forChunks(static_cast<Eigen::Index>(lattice.corners.size()), kRun, [&](const Chunk& chunk) {
-    InsetProbe probe(region);
-    for (auto c = static_cast<int>(chunk.begin); c < chunk.end; ++c) {
-      sampleCorner(region, probe, isNearWall[at(c)] != 0, c, lattice);
+/// What is known of what the walls leave at a corner without asking there: it changes by no more
+/// than one moves, and it is no more than the distance from any point of the surface.
+struct Bounds {
+  double atLeast = -std::numeric_limits<double>::infinity();
+  double atMost = std::numeric_limits<double>::infinity();
+  bool isNearWall = false; ///< else only the quadric matters
+};
+
+/// Takes the corners of blocks and finds out which of them are inside; asks for distances only
+/// where others do not tell.
+class CornerSampling {
+public:
+  CornerSampling(const Region& region, const std::vector<Block>& blocks, BorderLattice& lattice)
+      : region_(region), lattice_(lattice), edge_(lattice.edge) {
+    for (const Block& block : blocks) add(block);
+  }
+
+  /// Which are inside.
+  void findSides() {
+    forCorners([&](InsetProbe& probe, int c) { findSide(probe, c); });
+  }
+
+  /// The cubes of a block that the border passes through.
+  void addCubes(const std::vector<Block>& blocks) {
+    for (const Block& block : blocks) {
+      for (int i = 0; i < 8; ++i) {
+        const Place place = block.place + cornerStep(i);
+        unsigned inside = 0;
+        for (unsigned k = 0; k < 8; ++k) {
+          const int c = lattice_.cornerAt.at(place + cornerStep(static_cast<int>(k)));
+          if (lattice_.corners[at(c)].isInside) inside |= 1U << k;
+        }
+        if (inside != 0 && inside != 255) addCube(place, lattice_);
+      }
     }
-  });
-}
+  }
+
+  /// At both ends of the edges that the border crosses.
+  void sampleCrossed() {
+    std::vector<char> isCrossed(bounds_.size(), 0);
+    for (const auto& corners : lattice_.cubes) {
+      for (unsigned i = 0; i < 8; ++i) {
+        for (const unsigned step : {1U, 2U, 4U}) {
+          const int a = corners[i];
+          const int b = corners[i ^ step];
+          if (lattice_.corners[at(a)].isInside != lattice_.corners[at(b)].isInside)
+            isCrossed[at(a)] = isCrossed[at(b)] = 1;
+        }
+      }
+    }
+    forCorners([&](InsetProbe& probe, int c) {
+      Corner& corner = lattice_.corners[at(c)];
+      if (isCrossed[at(c)] == 0 || corner.inset || isFarBehind(c)) return;
+      corner.inset = probe.at(lattice_.positionOf(c), 2.0 * edge_);
+    });
+  }
+
+private:
+  void add(const Block& block) {
+    constexpr int kSide = 3;
+    const Vec3 centre = lattice_.origin + edge_ * (block.place.cast<double>() + Vec3::Ones());
+    for (int i = 0; i < kSide * kSide * kSide; ++i) {
+      const Place step(i % kSide, i / kSide % kSide, i / (kSide * kSide));
+      const int c = cornerAt(block.place + step, lattice_);
+      if (at(c) == bounds_.size()) bounds_.emplace_back();
+      if (!block.middle) continue;
+      Bounds& bounds = bounds_[at(c)];
+      bounds.isNearWall = true;
+      const Sample& middle = *block.middle;
+      if (step == Place::Ones()) lattice_.corners[at(c)].inset = middle;
+      const Vec3 x = lattice_.positionOf(c);
+      const double away = (x - centre).norm();
+      bounds.atLeast = std::max(bounds.atLeast, middle.value - away);
+      bounds.atMost = std::min(bounds.atMost, middle.value + away);
+      if (!block.isOfSurface) continue;
+      const Vec3 onSurface = centre - (middle.value + region_.wall) * middle.slope;
+      bounds.atMost = std::min(bounds.atMost, (x - onSurface).norm() - region_.wall);
+    }
+  }
+
+  /// Calls visit(probe, c) for all corners, in the same order whatever the number of threads.
+  template <class Visit>
+  void forCorners(const Visit& visit) {
+    constexpr Eigen::Index kRun = 1024;
+    forChunks(static_cast<Eigen::Index>(bounds_.size()), kRun, [&](const Chunk& chunk) {
+      InsetProbe probe(region_);
+      for (auto c = static_cast<int>(chunk.begin); c < chunk.end; ++c) visit(probe, c);
+    });
+  }
+
+  bool isFarBehind(int c) const {
+    return !bounds_[at(c)].isNearWall || bounds_[at(c)].atLeast >= edge_;
+  }
+
+  void findSide(InsetProbe& probe, int c) {
+    Corner& corner = lattice_.corners[at(c)];
+    const double least = kLeastValue * edge_;
+    constexpr double kFar = 2.0; // edges: no other surface comes near enough for a chamfer
+    if (region_.quadric) corner.cut = cutAt(region_, lattice_.positionOf(c));
+    const bool isNearCut = corner.cut && std::abs(corner.cut->value) < kFar * edge_;
+    const Bounds& bounds = bounds_[at(c)];
+    corner.isInside = (!corner.cut || corner.cut->value > least) && bounds.atMost > 0.0;
+    if (!corner.isInside || isFarBehind(c)) return;
+    if (!corner.inset && (isNearCut || bounds.atLeast <= least))
+      corner.inset = probe.at(lattice_.positionOf(c), kFar * edge_);
+    corner.chamfer = chamferAt(corner, edge_);
+    corner.isInside = corner.value() > least;
+  }
+
+  const Region& region_;
+  BorderLattice& lattice_;
+  double edge_;
+  std::vector<Bounds> bounds_; ///< of the corners
+};
 
 /// Adds the cubes beyond sides with corners on both sides of the border that are not there: the
 /// search for cubes takes surfaces for smoother than rounded distances are.
@@ -175,7 +290,7 @@ void addMissing(const Region& region, BorderLattice& lattice) {
         const auto known = static_cast<int>(lattice.corners.size());
         addCube(other, lattice);
         for (int c = known; c < static_cast<int>(lattice.corners.size()); ++c) {
-          sampleCorner(region, probe, true, c, lattice);
+          sampleCorner(region, probe, c, lattice);
         }
       }
     }
@@ -235,22 +350,18 @@ BorderLattice borderLattice(const Region& region, double edge) {
   lattice.origin = region.surface.vertices().colwise().minCoeff().transpose();
   lattice.edge = edge;
   const Vec3 high = region.surface.vertices().colwise().maxCoeff().transpose();
-  const std::vector<Cube> cubes = borderCubes(region, lattice.origin, high - lattice.origin, edge);
-  lattice.cubeAt.reserve(cubes.size());
-  lattice.cornerAt.reserve(2 * cubes.size());
-  std::vector<char> isNearWall;
-  std::vector<int> all;
-  for (const Cube& cube : cubes) {
-    all.push_back(addCube(cube.place, lattice));
-    isNearWall.resize(lattice.corners.size(), 0);
-    if (cube.isDeep) continue;
-    for (const int c : lattice.cubes.back()) isNearWall[at(c)] = 1;
-  }
-  sample(region, isNearWall, lattice);
+  const std::vector<Block> blocks =
+      borderBlocks(region, lattice.origin, high - lattice.origin, edge);
+  constexpr std::size_t kCornersOfABlock = 11; // that it does not share
+  lattice.cornerAt.reserve(kCornersOfABlock * blocks.size());
+  lattice.cubeAt.reserve(4 * blocks.size());
+  CornerSampling sampling(region, blocks, lattice);
+  sampling.findSides();
+  sampling.addCubes(blocks);
+  sampling.sampleCrossed();
   addMissing(region, lattice);
-  for (auto c = static_cast<int>(all.size()); c < static_cast<int>(lattice.cubes.size()); ++c) {
-    all.push_back(c);
-  }
+  std::vector<int> all(lattice.cubes.size());
+  std::iota(all.begin(), all.end(), 0);
   tame(std::move(all), lattice);
   return lattice;
 }

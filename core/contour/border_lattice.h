@@ -35,7 +35,7 @@ struct Corner {
   double value() const;
 };
 
-/// All cubes of one size that the border of the region may pass through. In each the corners that
+/// The cubes of one size that the border of the region passes through. In each the corners that
 /// are inside are connected along its edges, and so are those that are not: the border cuts it in
 /// one piece that has the shape of a disc.
 struct BorderLattice {

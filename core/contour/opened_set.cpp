@@ -102,8 +102,8 @@ OpenedSet openedSet(const TriangleTree& surface, double wall, double width, doub
       dualContour(borderLattice({surface, set.wall + narrow}, deepEdge)).mesh);
   if (border->faces.rows() == 0) return set;
   TriangleTree tree(border->vertices, border->faces);
-  set.deep.emplace(DeepPart{std::move(border), std::move(tree), set.wall + narrow + 2.0 * deepEdge,
-                            kReach * narrow});
+  set.deep.emplace(
+      DeepPart{std::move(border), std::move(tree), set.wall + narrow + deepEdge, kReach * narrow});
   return set;
 }
 

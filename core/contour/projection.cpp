@@ -35,8 +35,11 @@ public:
     if (on == On::Chamfer) return y;
     for (int step = 0; step < kSteps; ++step) {
       Vec3 way = Vec3::Zero();
+      // Of the cut it matters only on which side of the walls' border it is.
+      constexpr double kNearby = 0.1;
       const bool needsInset = on != On::Cut || step == 0;
-      const Sample inset = needsInset ? probe_.at(y, 2.0 * farthest_) : Sample{};
+      const Sample inset =
+          needsInset ? probe_.at(y, (on == On::Cut ? kNearby : 2.0) * farthest_) : Sample{};
       if (on == On::Cut && step == 0 && inset.value < 0.0) on = On::Crease;
       if (on == On::Inset) way = -inset.value * inset.slope;
       if (on == On::Cut || on == On::Crease) {
@@ -44,7 +47,8 @@ public:
         way = on == On::Cut ? Vec3(-cut.value * cut.slope) : wayToBoth(inset, cut);
       }
       y += way;
-      if (way.norm() < kNear * farthest_) break;
+      const bool isThere = on == On::Inset && inset.value > 0.0 && probe_.isOfSurface();
+      if (isThere || way.norm() < kNear * farthest_) break;
     }
     const Vec3 moved = y - x;
     const double length = moved.norm();

@@ -88,15 +88,31 @@ Sample InsetProbe::at(const Vec3& x, double horizon) {
   const double sign = last_.isInside ? 1.0 : -1.0;
   const double depth = sign * distance;
   Sample inset{depth - region_.wall, sign * (x - clear.point) / std::max(distance, kTiny)};
+  isOfSurface_ = true;
   if (deep == nullptr || depth >= deep->depth || inset.value <= -horizon) return inset;
-  const double farthest = deep->reach + horizon;
-  nearestDeep_ = deep->border.nearest(x, farthest * farthest, nearestDeep_.face);
+  // Not the nearest of the deep part, but near enough as a rule.
+  const int known = nearestDeep_.face;
+  if (known >= 0 &&
+      deep->reach - std::sqrt(deep->border.squaredDistance(x, known)) >= inset.value) {
+    return inset;
+  }
+  return ofOpening(x, horizon, inset);
+}
+
+/// Or of the surface's inset, where that is less.
+Sample InsetProbe::ofOpening(const Vec3& x, double horizon, const Sample& inset) {
+  const DeepPart& deep = *region_.deep;
+  const double farthest = deep.reach + horizon;
+  nearestDeep_ = deep.border.nearest(x, farthest * farthest, nearestDeep_.face);
   if (nearestDeep_.face < 0) {
-    return insideDeep_->contains(x) ? inset : Sample{std::min(inset.value, -horizon), inset.slope};
+    if (insideDeep_->contains(x)) return inset;
+    isOfSurface_ = false;
+    return {std::min(inset.value, -horizon), inset.slope};
   }
   const double away = std::sqrt(nearestDeep_.squaredDistance);
-  if (deep->reach - away >= inset.value || insideDeep_->contains(x, nearestDeep_)) return inset;
-  return {deep->reach - away, (nearestDeep_.point - x) / std::max(away, kTiny)};
+  if (deep.reach - away >= inset.value || insideDeep_->contains(x, nearestDeep_)) return inset;
+  isOfSurface_ = false;
+  return {deep.reach - away, (nearestDeep_.point - x) / std::max(away, kTiny)};
 }
 
 } // namespace massprops

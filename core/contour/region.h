@@ -53,13 +53,19 @@ public:
   /// ±`horizon`.
   Sample at(const Vec3& x, double horizon);
 
+  /// Whether the last one is the distance from the surface alone: from where it is positive the way
+  /// against its slope, as long as the value, ends on the border.
+  bool isOfSurface() const { return isOfSurface_; }
+
 private:
+  Sample ofOpening(const Vec3& x, double horizon, const Sample& inset);
   bool isInside(const Vec3& x) const;
 
   const Region& region_;
   PointInMesh inside_;
   std::optional<PointInMesh> insideDeep_;
   TriangleTree::Hit nearest_, nearestDeep_;
+  bool isOfSurface_ = true;
   /// Around the last point; the surface does not come into it, so that all of it is on one side.
   struct Ball {
     Vec3 centre = Vec3::Zero();
