@@ -179,17 +179,17 @@ public:
     forCorners([&](InsetProbe& probe, int c) { findSide(probe, c); });
   }
 
-  /// The cubes of a block that the border passes through.
+  /// The cubes of the blocks that the border passes through.
   void addCubes(const std::vector<Block>& blocks) {
-    for (const Block& block : blocks) {
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
       for (int i = 0; i < 8; ++i) {
-        const Place place = block.place + cornerStep(i);
         unsigned inside = 0;
-        for (unsigned k = 0; k < 8; ++k) {
-          const int c = lattice_.cornerAt.at(place + cornerStep(static_cast<int>(k)));
+        for (int k = 0; k < 8; ++k) {
+          const Place step = cornerStep(i) + cornerStep(k);
+          const int c = cornersOf_[b][at(step.x() + kSide * (step.y() + kSide * step.z()))];
           if (lattice_.corners[at(c)].isInside) inside |= 1U << k;
         }
-        if (inside != 0 && inside != 255) addCube(place, lattice_);
+        if (inside != 0 && inside != 255) addCube(blocks[b].place + cornerStep(i), lattice_);
       }
     }
   }
@@ -215,12 +215,15 @@ public:
   }
 
 private:
+  static constexpr int kSide = 3; // corners of a block
+
   void add(const Block& block) {
-    constexpr int kSide = 3;
+    auto& corners = cornersOf_.emplace_back();
     const Vec3 centre = lattice_.origin + edge_ * (block.place.cast<double>() + Vec3::Ones());
     for (int i = 0; i < kSide * kSide * kSide; ++i) {
       const Place step(i % kSide, i / kSide % kSide, i / (kSide * kSide));
       const int c = cornerAt(block.place + step, lattice_);
+      corners[at(i)] = c;
       if (at(c) == bounds_.size()) bounds_.emplace_back();
       if (!block.middle) continue;
       Bounds& bounds = bounds_[at(c)];
@@ -269,7 +272,8 @@ private:
   const Region& region_;
   BorderLattice& lattice_;
   double edge_;
-  std::vector<Bounds> bounds_; ///< of the corners
+  std::vector<Bounds> bounds_;                                    ///< of the corners
+  std::vector<std::array<int, kSide * kSide * kSide>> cornersOf_; ///< of each block
 };
 
 /// Adds the cubes beyond sides with corners on both sides of the border that are not there: the
