@@ -5,49 +5,68 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace massprops {
 namespace {
 
+constexpr double kMore = 1.05;  // than what is missing, for the direction turns on the way
+constexpr double kLeast = 1e-4; // of the wall
+
 /// By how much the walls of the faces around each vertex are too thin.
-Vector shortfalls(ClearanceQuery& clearance, double wall, const TriangleMesh& cavity) {
-  clearance.measure(cavity.vertices, cavity.faces, wall);
-  const Vector& ofFace = clearance.faceDistances();
+Vector shortfalls(double wall, const Vector& distanceOfFace, const TriangleMesh& cavity) {
   Vector ofVertex = Vector::Zero(cavity.vertices.rows());
-  for (Eigen::Index f = 0; f < ofFace.size(); ++f) {
-    for (const int v : cavity.faces.row(f)) ofVertex[v] = std::max(ofVertex[v], wall - ofFace[f]);
+  for (Eigen::Index f = 0; f < cavity.faces.rows(); ++f) {
+    for (const int v : cavity.faces.row(f))
+      ofVertex[v] = std::max(ofVertex[v], wall - distanceOfFace[f]);
   }
   return ofVertex;
 }
 
+std::vector<int> positive(const Vector& values) {
+  std::vector<int> numbers;
+  for (Eigen::Index v = 0; v < values.size(); ++v) {
+    if (values[v] > 0.0) numbers.push_back(static_cast<int>(v));
+  }
+  return numbers;
+}
+
+/// Moves vertices by what is missing, and `more` times that.
+void moveInwards(const ClearanceQuery& clearance, double wall, const Vector& missing, double more,
+                 TriangleMesh& cavity) {
+  const TriangleTree& surface = clearance.other();
+  Points targets = cavity.vertices;
+  const Points normals = vertexNormals(cavity.vertices, cavity.faces);
+  for (const int v : positive(missing)) {
+    const Vec3 x = cavity.vertices.row(v).transpose();
+    constexpr double kAnywhere = std::numeric_limits<double>::infinity();
+    const int near = clearance.nearestFace()[static_cast<std::size_t>(v)];
+    const Vec3 next = surface.clearance(x, surface.nearest(x, kAnywhere, near)).point;
+    const Vec3 inwards = -normals.row(v).transpose();
+    // Where a face bulges, away from its corner's nearest point is not away from the face's.
+    targets.row(v) += ((kMore + more) * missing[v] + kLeast * wall) *
+                      ((x - next).normalized() + inwards).normalized().transpose();
+  }
+  moveSoundly(targets, cavity.faces, cavity.vertices);
+}
+
 } // namespace
+
+void keepWallNearly(ClearanceQuery& clearance, double wall, TriangleMesh& cavity) {
+  const Vector distances = clearance.faceDistancesAtMost(cavity.vertices, cavity.faces, wall);
+  moveInwards(clearance, wall, shortfalls(wall, distances, cavity), 0.0, cavity);
+}
 
 std::vector<int> keepWall(ClearanceQuery& clearance, double wall, TriangleMesh& cavity) {
   constexpr int kRounds = 12;
-  constexpr double kMore = 1.05; // than what is missing, for the direction turns on the way
   constexpr double kGrowth = 0.5;
-  constexpr double kLeast = 1e-4; // of the wall
-  std::vector<int> thin;
-  for (int round = 0; round <= kRounds; ++round) {
-    const Vector missing = shortfalls(clearance, wall, cavity);
-    thin.clear();
-    for (Eigen::Index v = 0; v < missing.size(); ++v) {
-      if (missing[v] > 0.0) thin.push_back(static_cast<int>(v));
-    }
-    if (thin.empty() || round == kRounds) break;
-    Points targets = cavity.vertices;
-    const Points normals = vertexNormals(cavity.vertices, cavity.faces);
-    for (const int v : thin) {
-      const Vec3 x = cavity.vertices.row(v).transpose();
-      const Vec3 away = (x - clearance.other().clearance(x).point).normalized();
-      const Vec3 inwards = -normals.row(v).transpose();
-      // Where a face bulges, away from its corner's nearest point is not away from the face's.
-      targets.row(v) += ((kMore + kGrowth * round) * missing[v] + kLeast * wall) *
-                        (away + inwards).normalized().transpose();
-    }
-    moveSoundly(targets, cavity.faces, cavity.vertices);
+  for (int round = 0;; ++round) {
+    clearance.measure(cavity.vertices, cavity.faces, wall);
+    const Vector missing = shortfalls(wall, clearance.faceDistances(), cavity);
+    std::vector<int> thin = positive(missing);
+    if (thin.empty() || round == kRounds) return thin;
+    moveInwards(clearance, wall, missing, kGrowth * round, cavity);
   }
-  return thin;
 }
 
 } // namespace massprops

@@ -9,6 +9,9 @@
 
 namespace massprops {
 
+/// Once, by what the corners of triangles are next to: that is quick and as a rule nearly enough.
+void keepWallNearly(ClearanceQuery& clearance, double wall, TriangleMesh& cavity);
+
 /// Moves vertices away from the outer surface until no triangle is nearer to it than `wall`, a
 /// length in their unit, as far as triangles stay sound. The vertices of triangles that are still
 /// nearer, ascending. `clearance`: from the outer surface; may know the cavity from before.

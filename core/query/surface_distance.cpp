@@ -2,6 +2,7 @@
 
 #include "core/base/parallel.h"
 #include "core/mesh/connectivity.h"
+#include "core/query/triangle_distance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -103,6 +104,24 @@ public:
     return crossing;
   }
 
+  /// Compares faces with those of the other surface that are next to their corners.
+  void measureNearFaces() {
+    forChunks(faces_.rows(), kChunk, [&](const Chunk& chunk) {
+      for (Eigen::Index f = chunk.begin; f < chunk.end; ++f) {
+        faceBounds_[f] = boundByCorners(f);
+        if (faceBounds_[f] >= horizon_) continue;
+        double squared = horizon_ * horizon_;
+        int last = -1;
+        for (const int v : faces_.row(f)) {
+          const int next = nearestFace_[static_cast<std::size_t>(v)];
+          if (next != last) squared = distanceFrom(next, f, squared);
+          last = next;
+        }
+        faceBounds_[f] = std::sqrt(squared);
+      }
+    });
+  }
+
   /// Looks at all faces that may be nearer than the nearest known, the same ones whatever the
   /// number of threads.
   void findLeast() {
@@ -145,6 +164,7 @@ public:
   }
 
   const std::vector<int>& nearestFace() const { return nearestFace_; }
+  const Vector& faceBounds() const { return faceBounds_; }
   ClearanceQuery::Memory memory() const {
     return {x_, nearestFace_, faces_, vertexBounds_, faceBounds_};
   }
@@ -169,10 +189,18 @@ private:
     return std::min({values[faces_(f, 0)], values[faces_(f, 1)], values[faces_(f, 2)]});
   }
 
+  Vec3 corner(Eigen::Index f, int k) const { return x_.row(faces_(f, k)).transpose(); }
+
+  double distanceFrom(int face, Eigen::Index f, double squaredBound) const {
+    const auto corners = other_.faces().row(face);
+    const auto at = [&](int k) { return Vec3(other_.vertices().row(corners[k]).transpose()); };
+    const Vec3 s[3] = {corner(f, 0), corner(f, 1), corner(f, 2)};
+    const Vec3 t[3] = {at(0), at(1), at(2)};
+    return squaredDistanceBelow(squaredBound, s, t);
+  }
+
   double distanceOf(Eigen::Index f, double squaredBound) const {
-    return other_.squaredClearance(x_.row(faces_(f, 0)).transpose(),
-                                   x_.row(faces_(f, 1)).transpose(),
-                                   x_.row(faces_(f, 2)).transpose(), squaredBound);
+    return other_.squaredClearance(corner(f, 0), corner(f, 1), corner(f, 2), squaredBound);
   }
 
   /// At y = Σλ_i y_i the other surface is at least d away, d² ≥ Σλ_i d_i² − Σλ_i|y_i − y|²: a point
@@ -241,6 +269,17 @@ private:
 };
 
 } // namespace
+
+Vector ClearanceQuery::faceDistancesAtMost(const Points& vertices, const Faces& faces,
+                                           double horizon) {
+  Measurement measurement(vertices, faces, other_, horizon, memory_);
+  measurement.measureVertices();
+  measurement.measureNearFaces();
+  Vector atMost = measurement.faceBounds();
+  memory_ = measurement.memory();
+  memory_.faceBounds.setZero();
+  return atMost;
+}
 
 Clearance ClearanceQuery::measure(const Points& vertices, const Faces& faces, double horizon) {
   Clearance result;
