@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -196,9 +197,27 @@ bool leavesRoom(const TriangleTree& surface, double wall) {
   return found && found->contour.mesh.faces.rows() > 0;
 }
 
-/// In cubes of the set's edge.
-CavityResult cavityOf(const CavityTask& task, const OpenedSet& deliverable) {
+/// What is left of what is possible.
+double gapOf(const CavityTask& task, const CavityResult& result) {
+  if (result.status != CavityStatus::Found) return 1.0;
+  return gapToBound(*task.bound, inputBody(task), hollowBody(task, result));
+}
+
+/// A cavity, or what it will be like.
+struct Made {
+  CavityResult result;
+  bool isFinished = true; ///< else neither polished nor inspected
+};
+
+/// In cubes of the set's edge. `farthest`: what may be left of what is possible for the cavity to
+/// be worth finishing.
+Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, double farthest) {
   const LayeredQuadric& quadric = task.bound->worth;
+  const auto isWorthIt = [&](const TriangleMesh& mesh) {
+    const CavityResult rough = resultOf(task, mesh);
+    // Where constraints are broken polishing comes first.
+    return hollowBody(task, rough).violation > kFeasibility || gapOf(task, rough) <= farthest;
+  };
   const double roomy = wallBeforeRounding(task);
   double wall = task.wall;
   CavityResult result;
@@ -207,8 +226,8 @@ CavityResult cavityOf(const CavityTask& task, const OpenedSet& deliverable) {
     if (deliverable.wall < roomy || round > 1) wall += roomy - task.wall;
     const std::optional<CavityContour> found =
         wall <= deliverable.wall
-            ? cavityContour(deliverable, quadric)
-            : cavityContour(openedSet(task.surface, wall, deliverable.edge), quadric);
+            ? cavityContour(deliverable, quadric, isWorthIt)
+            : cavityContour(openedSet(task.surface, wall, deliverable.edge), quadric, isWorthIt);
     if (!found || found->contour.mesh.faces.rows() == 0) {
       result = {};
       // Where there is room the limit's body is the solid one.
@@ -217,6 +236,7 @@ CavityResult cavityOf(const CavityTask& task, const OpenedSet& deliverable) {
                                 : "the best possible cavity cannot be resolved";
       break;
     }
+    if (!found->isFinished) return {resultOf(task, found->contour.mesh), false};
     result = polished(task, quadric, wall, *found);
     result.effort.rounds = round;
     if (result.inspection.isClean()) break;
@@ -232,7 +252,37 @@ CavityResult cavityOf(const CavityTask& task, const OpenedSet& deliverable) {
       result.status = CavityStatus::NoGain;
     }
   }
-  return result;
+  return {std::move(result), true};
+}
+
+/// In finer cubes where those of the set lose too much.
+CavityResult inFineCubes(const CavityTask& task, OpenedSet deliverable) {
+  // What cubes lose goes with the square of their edge.
+  constexpr int kTimes = 2;
+  constexpr double kEnough = 0.015;          // of what is possible is left
+  constexpr double kTooMuch = 1.1 * kEnough; // before anything is polished
+  constexpr double kWanted = 0.01;
+  constexpr double kAll = std::numeric_limits<double>::infinity();
+  Made best = cavityOf(task, deliverable, kTooMuch);
+  double edgeOfBest = deliverable.edge;
+  for (int i = 0; i < kTimes; ++i) {
+    const double gap = gapOf(task, best.result);
+    if (gap <= kEnough || best.result.status == CavityStatus::NoRoom) break;
+    deliverable.edge *= std::clamp(std::sqrt(kWanted / gap), 0.5, 0.8);
+    if (deliverable.edge < kLeastEdge) break;
+    Made finer = cavityOf(task, deliverable, i + 1 < kTimes ? kTooMuch : kAll);
+    finer.result.effort += best.result.effort;
+    const bool isBetter = servesBetter(task, finer.result, best.result);
+    best.result.effort = finer.result.effort;
+    if (!isBetter) break;
+    best = std::move(finer);
+    edgeOfBest = deliverable.edge;
+  }
+  if (best.isFinished) return std::move(best.result);
+  deliverable.edge = edgeOfBest;
+  Made finished = cavityOf(task, deliverable, kAll);
+  finished.result.effort += best.result.effort;
+  return std::move(finished.result);
 }
 
 /// Where a mass is all that is wanted: behind a wall as thick everywhere as that takes. Empty: more
@@ -280,27 +330,7 @@ CavityResult bestPossibleCavity(const CavityTask& task, const OpenedSet& deliver
     walled->effort.secondsOptimization = time.seconds() - walled->effort.secondsInspection;
     return std::move(*walled);
   }
-  CavityResult result = cavityOf(task, deliverable);
-  const Body solid = inputBody(task);
-  // What cubes lose goes with the square of their edge.
-  constexpr int kTimes = 2;
-  constexpr double kEnough = 0.015; // of what is possible is left
-  constexpr double kWanted = 0.01;
-  double edge = deliverable.edge;
-  for (int i = 0; i < kTimes; ++i) {
-    const double gap = result.status == CavityStatus::Found
-                           ? gapToBound(*task.bound, solid, hollowBody(task, result))
-                           : 1.0;
-    if (gap <= kEnough || result.status == CavityStatus::NoRoom) break;
-    edge *= std::clamp(std::sqrt(kWanted / gap), 0.5, 0.8);
-    if (edge < kLeastEdge) break;
-    CavityResult finer = cavityOf(task, openedSet(task.surface, task.wall, edge));
-    finer.effort += result.effort;
-    const bool isBetter = servesBetter(task, finer, result);
-    result.effort = finer.effort;
-    if (!isBetter) break;
-    result = std::move(finer);
-  }
+  CavityResult result = inFineCubes(task, deliverable);
   result.effort.secondsOptimization = time.seconds() - result.effort.secondsInspection;
   return result;
 }

@@ -111,8 +111,9 @@ Troubles troublesLeft(ClearanceQuery& clearance, double wall, Contour& contour) 
 
 } // namespace
 
-std::optional<CavityContour> cavityContour(const OpenedSet& set,
-                                           const std::optional<LayeredQuadric>& quadric) {
+std::optional<CavityContour>
+cavityContour(const OpenedSet& set, const std::optional<LayeredQuadric>& quadric,
+              const std::function<bool(const TriangleMesh&)>& isWorthIt) {
   ClearanceQuery fresh(set.surface);
   if (!set.deep) return CavityContour{{}, set.edge, fresh};
   const double leastVolume = std::pow(set.width, 3);
@@ -127,6 +128,9 @@ std::optional<CavityContour> cavityContour(const OpenedSet& set,
     if (raw.mesh.faces.rows() == 0) return CavityContour{{}, set.edge, fresh};
     Contour contour = smoothed(region, set.edge, raw);
     ClearanceQuery clearance(set.surface);
+    keepWallNearly(clearance, set.wall, contour.mesh);
+    if (isWorthIt && !isWorthIt(contour.mesh))
+      return CavityContour{std::move(contour), set.edge, std::move(clearance), false};
     const Troubles troubles = troublesLeft(clearance, set.wall, contour);
     if (troubles.areNone())
       return CavityContour{std::move(contour), set.edge, std::move(clearance)};

@@ -5,22 +5,25 @@
 #include "core/contour/opened_set.h"
 #include "core/query/surface_distance.h"
 
+#include <functional>
 #include <optional>
 
 namespace massprops {
 
 struct CavityContour {
   Contour contour;
-  double edge; ///< of the cubes that it was made with
-  /// Has measured it.
-  ClearanceQuery clearance;
+  double edge;              ///< of the cubes that it was made with
+  ClearanceQuery clearance; ///< has measured it
+  bool isFinished = true;
 };
 
 /// The points of the opened set where the quadric is positive, if one is given. Closed components,
 /// outward, that do not cross themselves, no point of which is nearer to the surface than the set's
 /// wall; no faces where there is no such point. Empty: it was not found, which happens on surfaces
-/// far too uneven.
-std::optional<CavityContour> cavityContour(const OpenedSet& set,
-                                           const std::optional<LayeredQuadric>& quadric);
+/// far too uneven. `isWorthIt`: asked about the surface while its walls are still too thin here and
+/// there; where it says no that is returned, not finished.
+std::optional<CavityContour>
+cavityContour(const OpenedSet& set, const std::optional<LayeredQuadric>& quadric,
+              const std::function<bool(const TriangleMesh&)>& isWorthIt = {});
 
 } // namespace massprops

@@ -102,7 +102,7 @@ OpenedSet openedSet(const TriangleTree& surface, double wall, double width, doub
       dualContour(borderLattice({surface, set.wall + narrow}, deepEdge)).mesh);
   if (border->faces.rows() == 0) return set;
   TriangleTree tree(border->vertices, border->faces);
-  set.deep.emplace(
+  set.deep = std::make_shared<const DeepPart>(
       DeepPart{std::move(border), std::move(tree), set.wall + narrow + deepEdge, kReach * narrow});
   return set;
 }

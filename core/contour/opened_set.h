@@ -4,18 +4,18 @@
 #include "core/contour/region.h"
 #include "core/optimum/admissible_cells.h"
 
-#include <optional>
+#include <memory>
 
 namespace massprops {
 
 /// The points at least `wall` behind the surface, opened by a ball, by default one as wide as the
 /// wall: docs/math.md "The best possible cavity". Working frame.
 struct OpenedSet {
-  const TriangleTree& surface;  ///< closed, outward
-  double wall;                  ///< a little more than the wanted one: what rounding takes
-  double width;                 ///< of the ball
-  double edge;                  ///< of the cubes that its border is to be made with
-  std::optional<DeepPart> deep; ///< empty: no such ball fits, there are no points
+  const TriangleTree& surface;          ///< closed, outward
+  double wall;                          ///< a little more than the wanted one: what rounding takes
+  double width;                         ///< of the ball
+  double edge;                          ///< of the cubes that its border is to be made with
+  std::shared_ptr<const DeepPart> deep; ///< null: no such ball fits, there are no points
 };
 
 /// The edge of cubes about `count` of which a surface of this area passes through; a length.
