@@ -13,6 +13,7 @@
 #include "core/model/frame.h"
 #include "core/model/mending.h"
 #include "core/optimum/foot_depth.h"
+#include "core/optimum/volume_bound.h"
 #include "core/print/print_project.h"
 #include "core/print/whole_file.h"
 #include "core/reduced/hollow_body.h"
@@ -145,9 +146,46 @@ bool movesInwards(const Preparation& model, const Options& options) {
   return options.cavityShape != CavityShape::BestPossible || moves(options) || model.posed.open;
 }
 
+/// From this share of what is possible on it is worth looking for more.
+constexpr double kFar = 0.02;
+
+double gapOf(double measure, const Search& found) {
+  const double before = *inputBody(found.task).measure;
+  return (*found.task.bound->measure - measure) / (*found.task.bound->measure - before);
+}
+
+/// The measure that no offset surface exceeds, if it is certain that this is far from what is
+/// possible: none of them takes more volume than that with the least offsets, along whatever
+/// directions. Empty: one may come near, or nothing is known.
+std::optional<double> measureOfDeepest(const Preparation& model, const Foundation& foundation,
+                                       const Options& options, const Search& found) {
+  const Weights& weights = options.weights;
+  if (options.cavityShape != CavityShape::Automatic || moves(options) || model.posed.open ||
+      !foundation.possible || !foundation.possible->bound.measure || weights.smoothness > 0.0) {
+    return std::nullopt;
+  }
+  constexpr double kMore = 1.1; // folds that an offset smooths out take volume
+  std::optional<double> most;
+  for (const double clearance : {kSlantedClearance, kSteepClearance}) {
+    const double volume =
+        clearance == kSlantedClearance
+            ? deepestVolume(found.task)
+            : deepestVolume(taskAlong(clearance, *model.goal, model, foundation, options));
+    const std::optional<double> measure =
+        greatestMeasure(*model.goal, foundation.possible->bound, model.solidMoments,
+                        found.task.model.fillings, foundation.possible->cells, kMore * volume);
+    if (!measure || !(gapOf(*measure, found) > kFar)) return std::nullopt;
+    most = std::max(most.value_or(*measure), *measure);
+  }
+  return most;
+}
+
+/// Whether it may be left out where it cannot come near to what is possible.
+enum class OffsetSearch { WhereItMayServe, Always };
+
 /// The best offset surface.
 Search searchOffsets(const Preparation& model, const Foundation& foundation, const Options& options,
-                     ProgressBar& bar) {
+                     OffsetSearch when, ProgressBar& bar) {
   bar.show(model.schedule.directions, "Offset directions");
   const auto taskFor = [&](const Goal& goal, double clearance) {
     return taskAlong(clearance, goal, model, foundation, options);
@@ -158,6 +196,9 @@ Search searchOffsets(const Preparation& model, const Foundation& foundation, con
         bar.within(model.schedule.search, Schedule::kEnd, "Optimization"));
   };
   Search result{taskFor(*model.goal, kSlantedClearance), {}};
+  if (when == OffsetSearch::WhereItMayServe)
+    result.offsetsAtMost = measureOfDeepest(model, foundation, options, result);
+  if (result.offsetsAtMost) return result;
   bar.show(model.schedule.search, "Optimization");
   const std::unique_ptr<Goal> instead = model.goal->insteadOfConstraints();
   const bool isOutOfReach = foundation.possible && !foundation.possible->bound.isReachable();
@@ -211,24 +252,26 @@ std::optional<Possible> possibleWithin(const TriangleTree& surface, double wall,
   const AdmissibleCells wide = cellsOf(partsWithin(deliverable, behindWalls));
   if (wide.col(0).sum() < cells.col(0).sum())
     bound = withBodyWithin(wide, std::move(bound), goal, weights, solid, states);
-  return Possible{std::move(bound), std::move(deliverable), std::move(states)};
+  return Possible{cells, std::move(bound), std::move(deliverable), std::move(states)};
 }
 
 /// Why the best possible cavity is worth looking for; empty: it is not.
 std::string reasonForBestPossible(const Options& options, const OptimalBound& bound,
                                   const Search& found) {
   if (options.cavityShape == CavityShape::BestPossible) return "as asked for";
+  const auto percent = [](double share) { return toString(std::round(1000.0 * share) / 10.0); };
+  if (found.offsetsAtMost) {
+    return "no offset surface was looked for, for it would leave at least " +
+           percent(gapOf(*found.offsetsAtMost, found)) + " % of what is possible";
+  }
   if (found.cavity.status == CavityStatus::NoRoom) return "the offset surface has no room";
   const bool isFound = found.cavity.status == CavityStatus::Found;
   const Body before = inputBody(found.task);
   const Body after = isFound ? hollowBody(found.task, found.cavity) : before;
   const double gap = gapToBound(bound, before, after);
-  constexpr double kFar = 0.02;
   // With a weight on smoothness it is far by intention.
-  if (gap > kFar && options.weights.smoothness == 0.0) {
-    const double rounded = std::round(1000.0 * gap) / 10.0;
-    return "the offset surface leaves " + toString(rounded) + " % of what is possible";
-  }
+  if (gap > kFar && options.weights.smoothness == 0.0)
+    return "the offset surface leaves " + percent(gap) + " % of what is possible";
   const bool isSolved =
       after.violation <= kFeasibility && found.verdictAfter->isReached(after.mass);
   return isSolved || gap == 0.0 ? "" : "the offset surface misses the goal";
@@ -307,6 +350,23 @@ void considerBestPossible(const Preparation& model, const Foundation& foundation
   found.cavity = std::move(best);
   found.shapeReason = reason;
   judge(model, options, found);
+}
+
+Search bestOfShapes(const Preparation& model, const Foundation& foundation, const Options& options,
+                    OffsetSearch when, ProgressBar& bar) {
+  Search result = movesInwards(model, options)
+                      ? searchOffsets(model, foundation, options, when, bar)
+                      : Search{taskOf(*model.goal, model, foundation, options), {}};
+  result.verdictBefore = makeVerdict(options, model.posed, model.posed.vertices);
+  judge(model, options, result);
+  considerBestPossible(model, foundation, options, bar, result);
+  return result;
+}
+
+/// Of the goal, which has one.
+double measureOf(const Search& found) {
+  const bool isFound = found.cavity.status == CavityStatus::Found;
+  return *(isFound ? hollowBody(found.task, found.cavity) : inputBody(found.task)).measure;
 }
 
 /// Of an answer that serves the goal.
@@ -444,7 +504,7 @@ std::optional<double> depthOfBetterFoot(const Preparation& model, const Foundati
   AdmissibleCells cells(0, 10);
   Fillings states = fillingsSeenBy(options);
   if (foundation.possible) {
-    cells = cellsOf(resolvedParts(model.surface, model.posed.wall));
+    cells = foundation.possible->cells;
     states = foundation.possible->states;
   }
   return betterFootDepth(*model.footing.lowest, model.posed, cells, states, options);
@@ -452,12 +512,10 @@ std::optional<double> depthOfBetterFoot(const Preparation& model, const Foundati
 
 Search search(const Preparation& model, const Foundation& foundation, const Options& options,
               ProgressBar& bar) {
-  Search result = movesInwards(model, options)
-                      ? searchOffsets(model, foundation, options, bar)
-                      : Search{taskOf(*model.goal, model, foundation, options), {}};
-  result.verdictBefore = makeVerdict(options, model.posed, model.posed.vertices);
-  judge(model, options, result);
-  considerBestPossible(model, foundation, options, bar, result);
+  Search first = bestOfShapes(model, foundation, options, OffsetSearch::WhereItMayServe, bar);
+  const bool isCertain = !first.offsetsAtMost || measureOf(first) >= *first.offsetsAtMost;
+  Search result = isCertain ? std::move(first)
+                            : bestOfShapes(model, foundation, options, OffsetSearch::Always, bar);
   const bool isHollow =
       result.cavity.status == CavityStatus::Found && result.cavity.inspection.components > 0;
   if (options.drainHoles > 0 && isHollow) {

@@ -95,6 +95,7 @@ RepairedMesh mend(const TriangleMesh& model, const Options& options, ProgressBar
 
 /// The best of all cavities within an outer surface.
 struct Possible {
+  AdmissibleCells cells; ///< behind the walls
   OptimalBound bound;
   OpenedSet deliverable;
   /// In which it is to serve the goal: where there is more than one, with every level of contents
@@ -121,6 +122,8 @@ std::optional<double> depthOfBetterFoot(const Preparation& model, const Foundati
 struct Search {
   CavityTask task;
   CavityResult cavity;
+  /// That no offset surface exceeds this in the goal's measure; then none was looked for.
+  std::optional<double> offsetsAtMost = {};
   std::string shapeReason = {}; ///< why it has this shape
   /// Of the model, and of the outer surface as it has become.
   std::unique_ptr<Verdict> verdictBefore = {}, verdictAfter = {};

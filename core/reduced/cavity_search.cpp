@@ -5,6 +5,7 @@
 #include "core/base/tolerances.h"
 #include "core/base/triangle.h"
 #include "core/mesh/lipschitz.h"
+#include "core/mesh/signed_volume.h"
 #include "core/mesh/vertex_adjacency.h"
 #include "core/query/triangle_tree.h"
 #include "core/reduced/coarse_to_fine.h"
@@ -252,6 +253,7 @@ public:
   CavitySearch(const CavityTask& task, double freedom, const std::function<void(double)>& progress);
 
   CavityResult run();
+  double deepestVolume();
 
 private:
   /// How a round goes on.
@@ -309,6 +311,13 @@ CavitySearch::CavitySearch(const CavityTask& task, double freedom,
   const Vector middle = 0.5 * (bounds_.lower + bounds_.upper);
   coefficients_ = coefficientsFor(model_, middle, outerStart_);
   result_.outer = task.surface.vertices();
+}
+
+double CavitySearch::deepestVolume() {
+  closeIn();
+  const Points deepest =
+      movingVertices(task_) - bounds_.lower.asDiagonal() * task_.model.field.directions;
+  return signedVolume(deepest, cavitySurface(deepest, cavityFaces_, corners_, solid_).faces);
 }
 
 CavityResult CavitySearch::run() {
@@ -478,6 +487,11 @@ CavityResult searchCavity(const CavityTask& task, const std::function<void(doubl
   if (!outerAlone) return all;
   outerAlone->effort = all.effort;
   return *outerAlone;
+}
+
+double deepestVolume(const CavityTask& task) {
+  const std::function<void(double)> silent;
+  return CavitySearch(task, 0.0, silent).deepestVolume();
 }
 
 bool leavesRoom(const CavityTask& task) {

@@ -78,6 +78,10 @@ Moments outerMoments(const CavityTask& task, const CavityResult& result);
 /// empty.
 CavityResult searchCavity(const CavityTask& task, const std::function<void(double)>& progress);
 
+/// Volume of the cavity with the least offsets, but for what has no room between its bounds, not
+/// inspected: those of a search lie within it. \pre the outer surface rests and is closed
+double deepestVolume(const CavityTask& task);
+
 /// Whether a cavity with the least offsets passes inspection, without optimising anything. Where
 /// it does, `searchCavity` finds one, too.
 bool leavesRoom(const CavityTask& task);
