@@ -29,8 +29,10 @@ class BorderSearch {
 public:
   static constexpr int kTopLevel = 4;
 
-  BorderSearch(const Region& region, Vec3 origin, double edge, std::vector<Block>& found)
-      : region_(region), probe_(region), origin_(std::move(origin)), edge_(edge), found_(found) {}
+  BorderSearch(const Region& region, Vec3 origin, double edge, InsetProbe& probe)
+      : region_(region), probe_(probe), origin_(std::move(origin)), edge_(edge) {}
+
+  const std::vector<Block>& found() const { return found_; }
 
   void visit(const Place& place, int level, bool isDeep) {
     const double size = edge_ * (1 << level);
@@ -56,27 +58,11 @@ public:
 
 private:
   const Region& region_;
-  InsetProbe probe_;
+  InsetProbe& probe_;
   Vec3 origin_;
   double edge_;
-  std::vector<Block>& found_;
+  std::vector<Block> found_;
 };
-
-std::vector<Block> borderBlocks(const Region& region, const Vec3& origin, const Vec3& extent,
-                                double edge) {
-  const double step = edge * (1 << BorderSearch::kTopLevel);
-  const Place counts = (extent / step).array().ceil().max(1.0).cast<int>();
-  std::vector<std::vector<Block>> parts(static_cast<std::size_t>(counts.prod()));
-  forChunks(counts.prod(), 1, [&](const Chunk& chunk) {
-    const int n = static_cast<int>(chunk.number);
-    const Place place(n % counts.x(), n / counts.x() % counts.y(), n / (counts.x() * counts.y()));
-    BorderSearch(region, origin, edge, parts[static_cast<std::size_t>(n)])
-        .visit(place * (1 << BorderSearch::kTopLevel), BorderSearch::kTopLevel, false);
-  });
-  std::vector<Block> blocks;
-  for (const auto& part : parts) blocks.insert(blocks.end(), part.begin(), part.end());
-  return blocks;
-}
 
 /// Whether the marked corners of a cube are connected along its edges, and the others, too.
 bool isCutOnce(unsigned marked) {
@@ -108,18 +94,15 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-/// The number of a corner, which is added as one inside if it is not there.
-int cornerAt(const Place& place, BorderLattice& lattice) {
-  const int fresh = static_cast<int>(lattice.corners.size());
-  const int number = lattice.cornerAt.emplace(place, fresh).first->second;
-  if (number == fresh) lattice.corners.push_back({place, true, false, {}, {}, {}});
-  return number;
-}
-
 int addCube(const Place& place, BorderLattice& lattice) {
   const int number = static_cast<int>(lattice.cubes.size());
   std::array<int, 8> corners{};
-  for (int i = 0; i < 8; ++i) corners[at(i)] = cornerAt(place + cornerStep(i), lattice);
+  for (int i = 0; i < 8; ++i) {
+    const Place cornerPlace = place + cornerStep(i);
+    const int fresh = static_cast<int>(lattice.corners.size());
+    corners[at(i)] = lattice.cornerAt.emplace(cornerPlace, fresh).first->second;
+    if (corners[at(i)] == fresh) lattice.corners.push_back({cornerPlace, true, false, {}, {}, {}});
+  }
   lattice.cubes.push_back(corners);
   lattice.cubeAt.emplace(place, number);
   return number;
@@ -165,72 +148,64 @@ struct Bounds {
   bool isNearWall = false; ///< else only the quadric matters
 };
 
-/// Takes the corners of blocks and finds out which of them are inside; asks for distances only
-/// where others do not tell.
-class CornerSampling {
+/// The cubes of a part of the lattice that the border passes through; asks for distances only
+/// where those of others do not tell.
+class PartOfLattice {
 public:
-  CornerSampling(const Region& region, const std::vector<Block>& blocks, BorderLattice& lattice)
-      : region_(region), lattice_(lattice), edge_(lattice.edge) {
-    for (const Block& block : blocks) add(block);
+  PartOfLattice(const Region& region, const Vec3& origin, double edge, const Place& first)
+      : region_(region), origin_(origin), edge_(edge), first_(first), probe_(region),
+        numbers_(at(kAcross * kAcross * kAcross), -1) {
+    BorderSearch search(region, origin, edge, probe_);
+    search.visit(first, BorderSearch::kTopLevel, false);
+    for (const Block& block : search.found()) add(block);
+    for (std::size_t c = 0; c < corners_.size(); ++c) findSide(c);
+    for (const Block& block : search.found()) addCubes(block.place);
+    sampleCrossed();
   }
 
-  /// Which are inside.
-  void findSides() {
-    forCorners([&](InsetProbe& probe, int c) { findSide(probe, c); });
-  }
-
-  /// The cubes of the blocks that the border passes through.
-  void addCubes(const std::vector<Block>& blocks) {
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
+  void addTo(BorderLattice& lattice) const {
+    for (const Place& place : cubes_) {
+      const auto known = static_cast<int>(lattice.corners.size());
+      const int cube = addCube(place, lattice);
       for (int i = 0; i < 8; ++i) {
-        unsigned inside = 0;
-        for (int k = 0; k < 8; ++k) {
-          const Place step = cornerStep(i) + cornerStep(k);
-          const int c = cornersOf_[b][at(step.x() + kSide * (step.y() + kSide * step.z()))];
-          if (lattice_.corners[at(c)].isInside) inside |= 1U << k;
-        }
-        if (inside != 0 && inside != 255) addCube(blocks[b].place + cornerStep(i), lattice_);
+        const int c = lattice.cubes[at(cube)][at(i)];
+        const Corner& corner = corners_[numberOf(place + cornerStep(i))];
+        if (c >= known) lattice.corners[at(c)] = corner;
+        // Where parts meet each has asked for what it needs itself.
+        if (!lattice.corners[at(c)].inset) lattice.corners[at(c)].inset = corner.inset;
       }
     }
-  }
-
-  /// At both ends of the edges that the border crosses.
-  void sampleCrossed() {
-    std::vector<char> isCrossed(bounds_.size(), 0);
-    for (const auto& corners : lattice_.cubes) {
-      for (unsigned i = 0; i < 8; ++i) {
-        for (const unsigned step : {1U, 2U, 4U}) {
-          const int a = corners[i];
-          const int b = corners[i ^ step];
-          if (lattice_.corners[at(a)].isInside != lattice_.corners[at(b)].isInside)
-            isCrossed[at(a)] = isCrossed[at(b)] = 1;
-        }
-      }
-    }
-    forCorners([&](InsetProbe& probe, int c) {
-      Corner& corner = lattice_.corners[at(c)];
-      if (isCrossed[at(c)] == 0 || corner.inset || isFarBehind(c)) return;
-      corner.inset = probe.at(lattice_.positionOf(c), 2.0 * edge_);
-    });
   }
 
 private:
-  static constexpr int kSide = 3; // corners of a block
+  static constexpr int kAcross = (1 << BorderSearch::kTopLevel) + 1; // corners
 
+  std::size_t placeOf(const Place& place) const {
+    const Place p = place - first_;
+    return at(p.x() + kAcross * (p.y() + kAcross * p.z()));
+  }
+  std::size_t numberOf(const Place& place) const { return at(numbers_[placeOf(place)]); }
+  Vec3 positionOf(const Place& place) const { return origin_ + edge_ * place.cast<double>(); }
+
+  /// Its corners, and what its middle tells of them.
   void add(const Block& block) {
-    auto& corners = cornersOf_.emplace_back();
-    const Vec3 centre = lattice_.origin + edge_ * (block.place.cast<double>() + Vec3::Ones());
+    constexpr int kSide = 3;
+    const Vec3 centre = positionOf(block.place + Place::Ones());
     for (int i = 0; i < kSide * kSide * kSide; ++i) {
       const Place step(i % kSide, i / kSide % kSide, i / (kSide * kSide));
-      const int c = cornerAt(block.place + step, lattice_);
-      corners[at(i)] = c;
-      if (at(c) == bounds_.size()) bounds_.emplace_back();
+      const Place place = block.place + step;
+      int& number = numbers_[placeOf(place)];
+      if (number < 0) {
+        number = static_cast<int>(corners_.size());
+        corners_.push_back({place, true, false, {}, {}, {}});
+        bounds_.emplace_back();
+      }
       if (!block.middle) continue;
-      Bounds& bounds = bounds_[at(c)];
+      Bounds& bounds = bounds_[at(number)];
       bounds.isNearWall = true;
       const Sample& middle = *block.middle;
-      if (step == Place::Ones()) lattice_.corners[at(c)].inset = middle;
-      const Vec3 x = lattice_.positionOf(c);
+      if (step == Place::Ones()) corners_[at(number)].inset = middle;
+      const Vec3 x = positionOf(place);
       const double away = (x - centre).norm();
       bounds.atLeast = std::max(bounds.atLeast, middle.value - away);
       bounds.atMost = std::min(bounds.atMost, middle.value + away);
@@ -240,41 +215,85 @@ private:
     }
   }
 
-  /// Calls visit(probe, c) for all corners, in the same order whatever the number of threads.
-  template <class Visit>
-  void forCorners(const Visit& visit) {
-    constexpr Eigen::Index kRun = 1024;
-    forChunks(static_cast<Eigen::Index>(bounds_.size()), kRun, [&](const Chunk& chunk) {
-      InsetProbe probe(region_);
-      for (auto c = static_cast<int>(chunk.begin); c < chunk.end; ++c) visit(probe, c);
-    });
+  bool isFarBehind(std::size_t c) const {
+    return !bounds_[c].isNearWall || bounds_[c].atLeast >= edge_;
   }
 
-  bool isFarBehind(int c) const {
-    return !bounds_[at(c)].isNearWall || bounds_[at(c)].atLeast >= edge_;
-  }
-
-  void findSide(InsetProbe& probe, int c) {
-    Corner& corner = lattice_.corners[at(c)];
+  void findSide(std::size_t c) {
+    Corner& corner = corners_[c];
     const double least = kLeastValue * edge_;
     constexpr double kFar = 2.0; // edges: no other surface comes near enough for a chamfer
-    if (region_.quadric) corner.cut = cutAt(region_, lattice_.positionOf(c));
+    const Vec3 x = positionOf(corner.place);
+    if (region_.quadric) corner.cut = cutAt(region_, x);
     const bool isNearCut = corner.cut && std::abs(corner.cut->value) < kFar * edge_;
-    const Bounds& bounds = bounds_[at(c)];
+    const Bounds& bounds = bounds_[c];
     corner.isInside = (!corner.cut || corner.cut->value > least) && bounds.atMost > 0.0;
     if (!corner.isInside || isFarBehind(c)) return;
     if (!corner.inset && (isNearCut || bounds.atLeast <= least))
-      corner.inset = probe.at(lattice_.positionOf(c), kFar * edge_);
+      corner.inset = probe_.at(x, kFar * edge_);
     corner.chamfer = chamferAt(corner, edge_);
     corner.isInside = corner.value() > least;
   }
 
+  /// Those of a block.
+  void addCubes(const Place& block) {
+    for (int i = 0; i < 8; ++i) {
+      const Place place = block + cornerStep(i);
+      unsigned inside = 0;
+      for (int k = 0; k < 8; ++k) {
+        if (corners_[numberOf(place + cornerStep(k))].isInside) inside |= 1U << k;
+      }
+      if (inside != 0 && inside != 255) cubes_.push_back(place);
+    }
+  }
+
+  /// At both ends of the edges that the border crosses.
+  void sampleCrossed() {
+    std::vector<char> isCrossed(corners_.size(), 0);
+    for (const Place& place : cubes_) {
+      for (int i = 0; i < 8; ++i) {
+        const std::size_t a = numberOf(place + cornerStep(i));
+        for (const int step : {1, 2, 4}) {
+          const std::size_t b = numberOf(place + cornerStep(i ^ step));
+          if (corners_[a].isInside != corners_[b].isInside) isCrossed[a] = isCrossed[b] = 1;
+        }
+      }
+    }
+    for (std::size_t c = 0; c < corners_.size(); ++c) {
+      if (isCrossed[c] == 0 || corners_[c].inset || isFarBehind(c)) continue;
+      corners_[c].inset = probe_.at(positionOf(corners_[c].place), 2.0 * edge_);
+    }
+  }
+
   const Region& region_;
-  BorderLattice& lattice_;
+  Vec3 origin_;
   double edge_;
-  std::vector<Bounds> bounds_;                                    ///< of the corners
-  std::vector<std::array<int, kSide * kSide * kSide>> cornersOf_; ///< of each block
+  Place first_;
+  InsetProbe probe_;
+  std::vector<int> numbers_; ///< of the corners at all places; −1: not asked for
+  std::vector<Corner> corners_;
+  std::vector<Bounds> bounds_; ///< of the corners
+  std::vector<Place> cubes_;
 };
+
+/// All cubes that the border passes through.
+void addCrossed(const Region& region, const Vec3& extent, BorderLattice& lattice) {
+  constexpr int kAcross = 1 << BorderSearch::kTopLevel;
+  constexpr Eigen::Index kAtOnce = 64; // so that not all of them are kept
+  const Place counts = (extent / (kAcross * lattice.edge)).array().ceil().max(1.0).cast<int>();
+  const Eigen::Index all = counts.prod();
+  for (Eigen::Index begin = 0; begin < all; begin += kAtOnce) {
+    std::vector<std::optional<PartOfLattice>> parts(
+        static_cast<std::size_t>(std::min(kAtOnce, all - begin)));
+    forChunks(static_cast<Eigen::Index>(parts.size()), 1, [&](const Chunk& chunk) {
+      const auto n = static_cast<int>(begin + chunk.number);
+      const Place place(n % counts.x(), n / counts.x() % counts.y(), n / (counts.x() * counts.y()));
+      parts[static_cast<std::size_t>(chunk.number)].emplace(region, lattice.origin, lattice.edge,
+                                                            kAcross * place);
+    });
+    for (const auto& part : parts) part->addTo(lattice);
+  }
+}
 
 /// Adds the cubes beyond sides with corners on both sides of the border that are not there: the
 /// search for cubes takes surfaces for smoother than rounded distances are.
@@ -354,15 +373,7 @@ BorderLattice borderLattice(const Region& region, double edge) {
   lattice.origin = region.surface.vertices().colwise().minCoeff().transpose();
   lattice.edge = edge;
   const Vec3 high = region.surface.vertices().colwise().maxCoeff().transpose();
-  const std::vector<Block> blocks =
-      borderBlocks(region, lattice.origin, high - lattice.origin, edge);
-  constexpr std::size_t kCornersOfABlock = 11; // that it does not share
-  lattice.cornerAt.reserve(kCornersOfABlock * blocks.size());
-  lattice.cubeAt.reserve(4 * blocks.size());
-  CornerSampling sampling(region, blocks, lattice);
-  sampling.findSides();
-  sampling.addCubes(blocks);
-  sampling.sampleCrossed();
+  addCrossed(region, high - lattice.origin, lattice);
   addMissing(region, lattice);
   std::vector<int> all(lattice.cubes.size());
   std::iota(all.begin(), all.end(), 0);
