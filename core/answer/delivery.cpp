@@ -4,7 +4,6 @@
 #include "core/mesh/components.h"
 #include "core/mesh/signed_volume.h"
 
-#include <numeric>
 #include <utility>
 
 namespace massprops {
@@ -28,9 +27,10 @@ void deliverOffsetSurface(const Solid& solid, const PosedModel& posed, const Cav
                           const std::function<Points(const Points&)>& representable,
                           Delivery& result) {
   std::vector<int> places = placesInSolid(posed, vertexOf);
-  if (vertexOf.empty()) {
-    places.resize(static_cast<std::size_t>(cavity.inner.rows()));
-    std::iota(places.begin(), places.end(), 0);
+  // Those of a finer copy are no vertices of the model; those of caps come last.
+  if (!posed.open) {
+    for (auto v = static_cast<int>(places.size()); v < cavity.inner.rows(); ++v)
+      places.push_back(v);
   }
   Points positions = representable(toModel(posed.frame, placed(cavity.inner, places)));
   Faces faces = cavity.cavity.faces;

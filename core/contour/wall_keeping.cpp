@@ -14,13 +14,26 @@ constexpr double kMore = 1.05;  // than what is missing, for the direction turns
 constexpr double kLeast = 1e-4; // of the wall
 
 /// By how much the walls of the faces around each vertex are too thin.
-Vector shortfalls(double wall, const Vector& distanceOfFace, const TriangleMesh& cavity) {
-  Vector ofVertex = Vector::Zero(cavity.vertices.rows());
-  for (Eigen::Index f = 0; f < cavity.faces.rows(); ++f) {
-    for (const int v : cavity.faces.row(f))
-      ofVertex[v] = std::max(ofVertex[v], wall - distanceOfFace[f]);
+Vector shortfalls(double wall, const Vector& distanceOfFace, const Faces& faces,
+                  Eigen::Index vertices) {
+  Vector ofVertex = Vector::Zero(vertices);
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    for (const int v : faces.row(f)) ofVertex[v] = std::max(ofVertex[v], wall - distanceOfFace[f]);
   }
   return ofVertex;
+}
+
+/// Those with a vertex that does not rest.
+Faces movingFaces(const Faces& faces, const std::vector<char>& rests) {
+  if (rests.empty()) return faces;
+  std::vector<Eigen::Index> moving;
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    const auto corners = faces.row(f);
+    if (std::any_of(corners.begin(), corners.end(),
+                    [&](int v) { return rests[static_cast<std::size_t>(v)] == 0; }))
+      moving.push_back(f);
+  }
+  return faces(moving, Eigen::all);
 }
 
 std::vector<int> positive(const Vector& values) {
@@ -54,15 +67,21 @@ void moveInwards(const ClearanceQuery& clearance, double wall, const Vector& mis
 
 void keepWallNearly(ClearanceQuery& clearance, double wall, TriangleMesh& cavity) {
   const Vector distances = clearance.faceDistancesAtMost(cavity.vertices, cavity.faces, wall);
-  moveInwards(clearance, wall, shortfalls(wall, distances, cavity), 0.0, cavity);
+  moveInwards(clearance, wall, shortfalls(wall, distances, cavity.faces, cavity.vertices.rows()),
+              0.0, cavity);
 }
 
-std::vector<int> keepWall(ClearanceQuery& clearance, double wall, TriangleMesh& cavity) {
+std::vector<int> keepWall(ClearanceQuery& clearance, double wall, TriangleMesh& cavity,
+                          const std::vector<char>& rests) {
   constexpr int kRounds = 12;
   constexpr double kGrowth = 0.5;
+  const Faces faces = movingFaces(cavity.faces, rests);
   for (int round = 0;; ++round) {
-    clearance.measure(cavity.vertices, cavity.faces, wall);
-    const Vector missing = shortfalls(wall, clearance.faceDistances(), cavity);
+    clearance.measure(cavity.vertices, faces, wall);
+    Vector missing = shortfalls(wall, clearance.faceDistances(), faces, cavity.vertices.rows());
+    for (std::size_t v = 0; v < rests.size(); ++v) {
+      if (rests[v] != 0) missing[static_cast<Eigen::Index>(v)] = 0.0;
+    }
     std::vector<int> thin = positive(missing);
     if (thin.empty() || round == kRounds) return thin;
     moveInwards(clearance, wall, missing, kGrowth * round, cavity);

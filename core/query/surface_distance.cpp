@@ -32,13 +32,16 @@ double squaredRadius(double ab, double bc, double ca) {
 class Remembered {
 public:
   Remembered(const ClearanceQuery::Memory& memory, const Points& vertices)
-      : memory_(memory), corners_(vertexCorners(vertices.rows(), memory.faces)) {
-    if (!isEmpty()) moved_ = (vertices - memory.vertices).rowwise().norm();
+      : memory_(memory),
+        corners_(vertexCorners(std::max(vertices.rows(), memory.vertices.rows()), memory.faces)),
+        moved_(Vector::Constant(vertices.rows(), kInfinity)) {
+    const Eigen::Index known = std::min(vertices.rows(), memory.vertices.rows());
+    moved_.head(known) =
+        (vertices.topRows(known) - memory.vertices.topRows(known)).rowwise().norm();
   }
 
-  bool isEmpty() const { return memory_.faces.rows() == 0; }
   int nearestFace(Eigen::Index v) const {
-    return isEmpty() ? -1 : memory_.nearestFace[static_cast<std::size_t>(v)];
+    return v < memory_.vertices.rows() ? memory_.nearestFace[static_cast<std::size_t>(v)] : -1;
   }
   double vertexBound(Eigen::Index v) const {
     return memory_.vertexBounds[v] * (1.0 - kRounding) - moved_[v];

@@ -25,7 +25,8 @@ public:
   /// Refers to the tree, which needs all its queries.
   explicit ClearanceQuery(const TriangleTree& other) : other_(other) {}
 
-  /// `vertices`, `faces`: in later calls the same vertices at other places, and other faces.
+  /// `vertices`, `faces`: in later calls the same vertices at other places, more or fewer of them,
+  /// and other faces.
   /// `horizon`: distances above it need not be exact.
   Clearance measure(const Points& vertices, const Faces& faces, double horizon);
 

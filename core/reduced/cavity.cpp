@@ -204,7 +204,7 @@ CavitySurface cavitySurface(const Points& vertices, const Faces& faces,
   for (;;) {
     markIrregular(faces, corners, solid);
     if (std::none_of(solid.begin(), solid.end(), [](char mark) { return mark != 0; })) {
-      return {faces, std::move(solid)};
+      return {faces, faces.rows(), std::move(solid)};
     }
     markSmallPieces(faces, corners, solid);
     const std::optional<std::vector<int>> closing = caps(vertices, faces, corners, solid);
@@ -220,6 +220,7 @@ CavitySurface cavitySurface(const Points& vertices, const Faces& faces,
       if (!touches(faces, f, solid)) cavity.faces.row(row++) = faces.row(f);
     }
     cavity.faces.bottomRows(added) = Eigen::Map<const Faces>(closing->data(), added, 3);
+    cavity.firstCapFace = kept;
     cavity.solid = std::move(solid);
     return cavity;
   }

@@ -13,6 +13,7 @@ struct CavitySurface {
   /// the input or belongs to a cap that closes the cavity where a thin part begins. May fall into
   /// several components, and be empty.
   Faces faces;
+  Eigen::Index firstCapFace = 0; ///< from here on they are those of caps, if any
   /// For every vertex whether it is solid: no cavity around it, no face uses it.
   std::vector<char> solid;
 };

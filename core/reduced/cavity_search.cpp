@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 namespace massprops {
@@ -289,7 +290,7 @@ private:
   bool fillUnwanted_;
   bool mayTrim_ = true;
   LookFirst first_ = LookFirst::ForAll;
-  ClearanceQuery clearance_;
+  std::shared_ptr<ClearanceQuery> clearance_;
   CavityResult result_;
 };
 
@@ -301,7 +302,7 @@ CavitySearch::CavitySearch(const CavityTask& task, double freedom,
       corners_(vertexCorners(positionCount(task), cavityFaces_)), model_(task.model),
       bounds_(task.model.inner), solid_(tooThin(task.model.field, bounds_)),
       thinRounds_(solid_.size(), 0), goal_(&task.goal), fillUnwanted_(freedom > 0.0),
-      clearance_(task.surface) {
+      clearance_(std::make_shared<ClearanceQuery>(task.surface)) {
   solid_.resize(static_cast<std::size_t>(positionCount(task)), 0);
   bounds_.lower = lipschitzAbove(movingVertices(task), neighbours_,
                                  bounds_.lower.cwiseMin(bounds_.upper), kBoundSlope);
@@ -432,7 +433,7 @@ void CavitySearch::placeAndInspect() {
   if (model_.outer) result_.outer = task_.deliverable(surfaces_.outer);
   result_.innerOffsets = std::move(surfaces_.innerOffsets);
   result_.outerOffsets = std::move(surfaces_.outerOffsets);
-  result_.inspection = inspectResult(task_, result_, first_, clearance_);
+  result_.inspection = inspectResult(task_, result_, first_, *clearance_);
   // What was all that was wrong mostly is all that is wrong next time.
   const bool isWithoutFolds =
       result_.inspection.crossing.empty() && result_.inspection.outerCrossing.empty();
@@ -447,6 +448,7 @@ bool CavitySearch::isAnswer(int round) {
   // A moved outer surface may serve the goal alone.
   const bool hasCavity = result_.inspection.components > 0;
   if (hasCavity || mayMoveOuterAlone(task_)) result_.status = CavityStatus::Found;
+  if (!model_.outer && task_.open == nullptr) result_.clearance = std::move(clearance_);
   return true;
 }
 

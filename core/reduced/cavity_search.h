@@ -55,12 +55,14 @@ struct SearchEffort {
 struct CavityResult {
   CavityStatus status = CavityStatus::NoRoom;
   CavityShape shape = CavityShape::Offset; ///< never Automatic
-  /// Delivered positions in the working frame, of an offset surface a row a vertex of what moves,
-  /// of an open surface's cavity twice as many.
+  /// Delivered positions in the working frame, of an offset surface a row a vertex of what moves
+  /// and then those of smooth caps, of an open surface's cavity twice as many.
   Points inner;
   Points outer;                      ///< of the outer surface, moved or not
   CavitySurface cavity;              ///< over `inner`; no faces: nothing can be hollowed
   Vector innerOffsets, outerOffsets; ///< of an offset surface
+  /// Null, or what remembers the distances from the outer surface, which rests.
+  std::shared_ptr<ClearanceQuery> clearance;
   Inspection inspection;
   SearchEffort effort;
   std::string stopReason;

@@ -1,6 +1,7 @@
 #include "core/reduced/search_strategy.h"
 
 #include "core/reduced/hollow_body.h"
+#include "core/reduced/smooth_caps.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -105,7 +106,7 @@ CavityResult bestCavity(CavityTask& task, const Redirected& steeper,
   }
   if (isUseless(task, best)) best.status = CavityStatus::NoGain;
   best.effort = effort;
-  return best;
+  return withSmoothCaps(task, best);
 }
 
 double greatestWall(double tooThick, const std::function<bool(double)>& hasRoom,

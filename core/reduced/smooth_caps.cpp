@@ -1,0 +1,354 @@
+#include "core/reduced/smooth_caps.h"
+
+#include "core/base/tolerances.h"
+#include "core/base/triangle.h"
+#include "core/contour/wall_keeping.h"
+#include "core/mesh/components.h"
+#include "core/mesh/hole_filling.h"
+#include "core/mesh/signed_volume.h"
+#include "core/optimum/layered_quadric.h"
+#include "core/reduced/adjustment.h"
+#include "core/reduced/cavity_ends.h"
+#include "core/reduced/fairing.h"
+#include "core/reduced/hollow_body.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace massprops {
+namespace {
+
+using Marks = std::vector<char>;
+
+std::size_t at(Eigen::Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+template <class Predicate>
+Faces facesWhere(const Faces& faces, const Predicate& predicate) {
+  Faces result(faces.rows(), 3);
+  Eigen::Index count = 0;
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    if (predicate(f)) result.row(count++) = faces.row(f);
+  }
+  return result.topRows(count);
+}
+
+bool hasAny(const Faces& faces, Eigen::Index f, const Marks& marks) {
+  return std::any_of(faces.row(f).begin(), faces.row(f).end(),
+                     [&](int v) { return marks[at(v)] != 0; });
+}
+
+/// A cavity over the n vertices of what moves and, behind them, those of new caps, borders
+/// included.
+struct Capped {
+  TriangleMesh mesh;
+  Marks solid;          ///< n
+  std::vector<int> end; ///< of every vertex; −1
+};
+
+/// The triangles between a hole's border, divided, over the vertices of the whole and new ones.
+TriangleMesh dividedCap(const Points& vertices, const Faces& kept, const VertexCorners& corners,
+                        const Faces& cap) {
+  std::vector<Eigen::Index> around;
+  for (const int v : cap.reshaped()) {
+    for (const int c : corners.at(v)) around.push_back(c / 3);
+  }
+  std::sort(around.begin(), around.end());
+  around.erase(std::unique(around.begin(), around.end()), around.end());
+  const auto first = static_cast<Eigen::Index>(around.size());
+  Faces faces(first + cap.rows(), 3);
+  for (Eigen::Index i = 0; i < first; ++i) faces.row(i) = kept.row(around[at(i)]);
+  faces.bottomRows(cap.rows()) = cap;
+  const Submesh patch = submesh(vertices, faces);
+  const TriangleMesh divided = refinedFilling(patch.mesh, first);
+  if (divided.faces.rows() == 0) return {Points(0, 3), cap};
+  const Eigen::Index old = patch.mesh.vertices.rows();
+  return {divided.vertices.bottomRows(divided.vertices.rows() - old),
+          divided.faces.unaryExpr([&](int v) {
+            return v < old ? patch.vertexOf[at(v)] : static_cast<int>(vertices.rows() + v - old);
+          })};
+}
+
+/// Least volume of a component that is worth printing, in cubes of the wall.
+constexpr double kSpeck = 8.0;
+/// Of what the cavity gains over the solid body: so much a smooth end may cost.
+constexpr double kMostLoss = 0.02;
+
+class Capping {
+public:
+  Capping(const CavityTask& task, const CavityResult& found);
+  CavityResult run();
+
+private:
+  /// What has not been inspected yet.
+  struct Stretched {
+    std::unique_ptr<const Skin> skin; ///< at the caps
+    CavityResult result;
+  };
+
+  const TriangleTree& outer() const { return moved_ ? *moved_ : task_.surface; }
+  Capped opened() const;
+  std::optional<Stretched> stretched(Capped capped) const;
+  std::optional<CavityResult> closed(const Capped& capped) const;
+  void dropSpecks(double leastVolume, Capped& capped) const;
+  CavityResult resultOf(const Capped& capped) const;
+  bool keepsConstraints(const CavityResult& result) const;
+  bool press(const Skin& skin, const Marks& atWall, CavityResult& result) const;
+  bool isWorthIt(const CavityResult& result) const;
+  bool giveUp(const CavityResult& result, const std::vector<int>& end);
+
+  const CavityTask& task_;
+  const CavityResult& found_;
+  const Faces& faces_;
+  Eigen::Index n_;
+  std::unique_ptr<const TriangleTree> moved_; ///< null: the outer surface rests
+  std::unique_ptr<const Goal> movedGoal_;
+  std::optional<CavityTask> resting_; ///< empty: the task itself
+  VertexAdjacency neighbours_;
+  VertexCorners corners_;
+  CavityEnds ends_;
+  Marks isSmooth_; ///< by the end
+};
+
+Capping::Capping(const CavityTask& task, const CavityResult& found)
+    : task_(task), found_(found), faces_(task.model.surface->faces),
+      n_(task.model.surface->vertices.rows()),
+      moved_(task.model.outer ? std::make_unique<const TriangleTree>(
+                                    found.outer, task.surface.faces(), TriangleTree::Order::Spatial)
+                              : nullptr),
+      movedGoal_(task.goalFor ? task.goalFor(found.outer) : nullptr),
+      neighbours_(vertexAdjacency(n_, faces_)), corners_(vertexCorners(n_, faces_)),
+      ends_(cavityEnds(task, found, neighbours_)), isSmooth_(at(ends_.count), 1) {
+  if (!moved_) return;
+  resting_.emplace(CavityTask{*moved_, movedGoal_ ? *movedGoal_ : task.goal, {}, task.weights});
+  resting_->model.fillings = task.model.fillings;
+  resting_->model.solidMoments = outerMoments(task, found);
+}
+
+CavityResult Capping::run() {
+  constexpr int kAttempts = 4;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    if (std::find(isSmooth_.begin(), isSmooth_.end(), 1) == isSmooth_.end()) break;
+    const Capped rough = opened();
+    std::optional<CavityResult> result = closed(rough);
+    if (!result) break;
+    result->inspection = inspect(result->inner, result->cavity.faces, outer(), task_.wall, false,
+                                 LookFirst::ForAll, found_.clearance.get());
+    if (result->inspection.isClean()) return isWorthIt(*result) ? *result : found_;
+    if (!giveUp(*result, rough.end)) break;
+  }
+  return found_;
+}
+
+/// Without fans at smooth ends, the holes closed by triangles that are not smooth yet.
+Capped Capping::opened() const {
+  const auto isRough = [&](int v) {
+    const int end = ends_.end[at(v)];
+    return end >= 0 && isSmooth_[at(end)] == 0;
+  };
+  Marks solid = found_.cavity.solid;
+  for (std::size_t v = 0; v < solid.size(); ++v) {
+    if (ends_.turned[v] != 0 && !isRough(static_cast<int>(v))) solid[v] = 1;
+  }
+  const CavitySurface surface = cavitySurface(found_.inner, faces_, corners_, std::move(solid));
+  const Faces kept = surface.faces.topRows(surface.firstCapFace);
+  const Faces& before = found_.cavity.faces;
+  std::vector<Faces> parts{kept, facesWhere(before, [&](Eigen::Index f) {
+                             return f >= found_.cavity.firstCapFace && isRough(before(f, 0)) &&
+                                    !hasAny(before, f, surface.solid);
+                           })};
+  Capped result;
+  result.solid = surface.solid;
+  result.end = ends_.end;
+  const VertexCorners keptCorners = vertexCorners(n_, kept);
+  std::vector<int> placeOf(at(n_));
+  for (std::size_t v = 0; v < placeOf.size(); ++v) placeOf[v] = static_cast<int>(v);
+  std::vector<Eigen::RowVector3d> added;
+  const auto add = [&](const Eigen::RowVector3d& position, int end) {
+    added.push_back(position);
+    result.end.push_back(end);
+    return static_cast<int>(n_) + static_cast<int>(added.size()) - 1;
+  };
+  const Faces caps = facesWhere(surface.faces, [&](Eigen::Index f) {
+    return f >= surface.firstCapFace && !isRough(surface.faces(f, 0));
+  });
+  for (const Faces& cap : connectedComponents(n_, caps)) {
+    TriangleMesh divided = dividedCap(found_.inner, kept, keptCorners, cap);
+    const int end = ends_.end[at(cap(0, 0))];
+    const int first = static_cast<int>(n_) + static_cast<int>(added.size());
+    for (const auto& position : divided.vertices.rowwise()) add(position, end);
+    parts.push_back(divided.faces.unaryExpr(
+        [&](int v) { return v < n_ ? v : first + v - static_cast<int>(n_); }));
+    for (const int v : cap.reshaped()) {
+      if (placeOf[at(v)] < n_) placeOf[at(v)] = add(found_.inner.row(v), end);
+    }
+  }
+  result.mesh.faces = joined(parts).unaryExpr([&](int v) { return v < n_ ? placeOf[at(v)] : v; });
+  result.mesh.vertices.resize(n_ + static_cast<Eigen::Index>(added.size()), 3);
+  result.mesh.vertices.topRows(n_) = found_.inner.topRows(n_);
+  for (std::size_t i = 0; i < added.size(); ++i) {
+    result.mesh.vertices.row(n_ + static_cast<Eigen::Index>(i)) = added[i];
+  }
+  return result;
+}
+
+/// Smooth caps, of several as stiff the ones that serve the goal best; empty where there are none,
+/// or no cavity.
+std::optional<Capping::Stretched> Capping::stretched(Capped capped) const {
+  constexpr double kStiffness[] = {1.0, 2.0, 4.0}; // walls
+  dropSpecks(0.0, capped);
+  Marks isFree(at(capped.mesh.vertices.rows()), 1);
+  std::fill_n(isFree.begin(), n_, 0);
+  std::optional<Stretched> best;
+  for (const double stiffness : kStiffness) {
+    auto skin = std::make_unique<const Skin>(capped.mesh.vertices, capped.mesh.faces, isFree,
+                                             stiffness * task_.wall);
+    if (!skin->isSolvable()) continue;
+    Capped smooth = capped;
+    smooth.mesh.vertices = skin->atRest();
+    if (!smooth.mesh.vertices.allFinite()) continue;
+    dropSpecks(kSpeck * task_.wall * task_.wall * task_.wall, smooth);
+    if (smooth.mesh.faces.rows() == 0) continue;
+    CavityResult result = resultOf(smooth);
+    if (best && !servesBetter(task_, result, best->result)) continue;
+    best = Stretched{std::move(skin), std::move(result)};
+  }
+  return best;
+}
+
+/// Caps that keep the wall and with which the constraints hold, not inspected yet; empty where
+/// there are none.
+std::optional<CavityResult> Capping::closed(const Capped& capped) const {
+  constexpr int kRounds = 6;
+  std::optional<Stretched> caps = stretched(capped);
+  if (!caps) return std::nullopt;
+  CavityResult& result = caps->result;
+  ClearanceQuery clearance(outer());
+  Marks rests(at(result.inner.rows()), 0); // what keeps the wall already
+  std::fill_n(rests.begin(), n_, 1);
+  Marks atWall(at(result.inner.rows()), 0);
+  for (int round = 0; round < kRounds; ++round) {
+    if (!keepsConstraints(result) && !press(*caps->skin, atWall, result)) return std::nullopt;
+    TriangleMesh mesh{result.inner, result.cavity.faces};
+    keepWall(clearance, kBeyondWall * task_.wall, mesh, rests);
+    if (mesh.vertices == result.inner) break;
+    for (Eigen::Index v = n_; v < mesh.vertices.rows(); ++v) {
+      if (mesh.vertices.row(v) != result.inner.row(v)) atWall[at(v)] = 1;
+    }
+    result.inner = std::move(mesh.vertices);
+  }
+  result.inner = task_.deliverable(result.inner);
+  return std::move(result);
+}
+
+/// Leaves out components that nothing holds, and those of less volume.
+void Capping::dropSpecks(double leastVolume, Capped& capped) const {
+  const Points& vertices = capped.mesh.vertices;
+  const Components components = connectedComponents(vertices.rows(), capped.mesh.faces);
+  std::vector<Faces> left;
+  for (const Faces& part : components) {
+    const auto all = part.reshaped();
+    const bool isHeld = std::any_of(all.begin(), all.end(), [&](int v) { return v < n_; });
+    if (isHeld && signedVolume(vertices, part) >= leastVolume) {
+      left.push_back(part);
+      continue;
+    }
+    for (const int v : all) {
+      if (v < n_) capped.solid[at(v)] = 1;
+    }
+  }
+  if (left.size() < components.size()) capped.mesh.faces = joined(left);
+}
+
+CavityResult Capping::resultOf(const Capped& capped) const {
+  CavityResult result = found_;
+  result.inner = capped.mesh.vertices;
+  result.cavity = {capped.mesh.faces, capped.mesh.faces.rows(), capped.solid};
+  return result;
+}
+
+/// With room for rounding.
+bool Capping::keepsConstraints(const CavityResult& result) const {
+  return task_.weights.constraints <= 0.0 ||
+         hollowBody(task_, result).violation <= 0.1 * kFeasibility;
+}
+
+/// Presses the caps in and out until the constraints hold; false where they do not. `atWall`:
+/// vertices that must not move.
+bool Capping::press(const Skin& skin, const Marks& atWall, CavityResult& result) const {
+  constexpr double kUnit = 0.1;  // walls, what the solver's variables are 1 for
+  constexpr double kRange = 4.0; // walls
+  const Eigen::Index terms = task_.goal.usesInertia() ? 10 : 4;
+  RowMatrix pressures = RowMatrix::Zero(result.inner.rows(), terms);
+  for (Eigen::Index v = n_; v < result.inner.rows(); ++v) {
+    pressures.row(v) = monomials(result.inner.row(v).transpose()).head(terms).transpose();
+  }
+  RowMatrix deflections = skin.deflections(pressures);
+  Deformation deformation{vertexNormals(result.inner, result.cavity.faces), {}};
+  for (Eigen::Index v = 0; v < result.inner.rows(); ++v) {
+    if (v >= n_ && atWall[at(v)] == 0) continue;
+    deflections.row(v).setZero();
+    deformation.directions.row(v).setZero();
+  }
+  deformation.functions = kUnit * task_.wall * orthogonalFunctions(deflections);
+  if (deformation.functions.size() == 0) return false;
+  MinimizeOptions options;
+  options.feasibility = 0.1 * kFeasibility;
+  options.range = kRange / kUnit;
+  options.maxEvaluations = 20;
+  const MinimizeResult minimum = adjust(resting_ ? *resting_ : task_,
+                                        {result.inner, result.cavity.faces}, deformation, options);
+  result.inner = deformed(result.inner, deformation, minimum.x);
+  result.effort.evaluations += minimum.evaluations;
+  return minimum.violation <= kFeasibility;
+}
+
+bool Capping::isWorthIt(const CavityResult& result) const {
+  const Body solid = inputBody(task_);
+  const Body before = hollowBody(task_, found_);
+  const Body after = hollowBody(task_, result);
+  if (task_.weights.constraints > 0.0 && after.violation > std::max(kFeasibility, before.violation))
+    return false;
+  if (before.measure && after.measure && solid.measure) {
+    const double wanted = task_.goal.wantedLevel();
+    return (*after.measure >= wanted || *before.measure < wanted) &&
+           *before.measure - *after.measure <=
+               kMostLoss * std::abs(*before.measure - *solid.measure);
+  }
+  return after.objective - before.objective <=
+         kMostLoss * std::abs(solid.objective - before.objective);
+}
+
+/// Ends at which something is wrong stay as they were. False where it is wrong elsewhere.
+bool Capping::giveUp(const CavityResult& result, const std::vector<int>& end) {
+  const VertexAdjacency neighbours = vertexAdjacency(result.inner.rows(), result.cavity.faces);
+  bool isChanged = false;
+  const auto giveUpAt = [&](int v) {
+    const int number = end[at(v)];
+    if (number < 0 || isSmooth_[at(number)] == 0) return;
+    isSmooth_[at(number)] = 0;
+    isChanged = true;
+  };
+  for (const std::vector<int>* wrong : {&result.inspection.crossing, &result.inspection.thin}) {
+    for (const int v : *wrong) {
+      giveUpAt(v);
+      for (const int w : neighbours[at(v)]) giveUpAt(w);
+    }
+  }
+  return isChanged;
+}
+
+} // namespace
+
+CavityResult withSmoothCaps(const CavityTask& task, const CavityResult& found) {
+  if (found.status != CavityStatus::Found || task.open != nullptr || found.cavity.faces.rows() == 0)
+    return found;
+  return Capping(task, found).run();
+}
+
+} // namespace massprops
