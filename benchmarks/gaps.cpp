@@ -1,9 +1,11 @@
 // Every sample with its goal: what the solid does, what the hollowed body does, and how far that is
-// from the best that any cavity with this wall could do. benchmarks/results.md keeps the output.
+// from the best that any cavity with this wall could do, and at which share of the cavity's edges
+// it turns by more than 60° and 100°. benchmarks/results.md keeps the output.
 //
 // usage: gaps [wall in per cent of the diagonal [entry of cavity_shape]]   2 and 0 where not given
 #include "core/goals/registry.h"
 #include "core/pipeline.h"
+#include "judge/checks.h"
 #include "samples.h"
 
 #include <algorithm>
@@ -59,8 +61,9 @@ double number(const Result& result, const std::string& key) {
 int main(int argc, char** argv) {
   const double wall = (argc > 1 ? std::atof(argv[1]) : 2.0) / 100.0;
   std::printf("Wall %.3g %% of the diagonal; one run each; seconds of wall time.\n", 100.0 * wall);
-  std::printf("%-23s %-21s %-17s %8s %8s %8s  %-6s %9s %6s %7s\n", "goal", "sample", "judged by",
-              "before", "after", "limit", "solved", "violation", "gap", "seconds");
+  std::printf("%-23s %-21s %-17s %8s %8s %8s  %-6s %9s %6s %6s %6s %7s\n", "goal", "sample",
+              "judged by", "before", "after", "limit", "solved", "violation", "gap", "> 60°",
+              "> 100°", "seconds");
   std::vector<double> gaps;
   for (const Case& c : cases()) {
     const TriangleMesh model = testing::sampleMesh(c.sample);
@@ -73,12 +76,14 @@ int main(int argc, char** argv) {
     const Result result = optimizeMassProperties(model, options);
     const std::string verdict = c.verdict;
     gaps.push_back(number(result, "gap_to_limit"));
-    std::printf("%-23s %-21s %-17s %8.2f %8.2f %8.2f  %-6s %9.1e %5.1f%% %7.2f\n",
+    std::printf("%-23s %-21s %-17s %8.2f %8.2f %8.2f  %-6s %9.1e %5.1f%% %5.2f%% %5.2f%% %7.2f\n",
                 goalNames()[static_cast<std::size_t>(c.goal)].c_str(), c.sample, c.verdict,
                 number(result, verdict + "_before"), number(result, verdict + "_after"),
                 number(result, verdict + "_limit"),
                 std::get<bool>(result.report.at("solved")) ? "yes" : "no",
                 number(result, "max_constraint_violation"), 100.0 * gaps.back(),
+                100.0 * testing::shareOfSharpEdges(result.inner, 60.0),
+                100.0 * testing::shareOfSharpEdges(result.inner, 100.0),
                 number(result, "seconds_total"));
     std::fflush(stdout);
   }

@@ -1,6 +1,6 @@
 #include "core/best/polish.h"
 
-#include "core/best/displacement.h"
+#include "core/reduced/displacement.h"
 #include "core/contour/region.h"
 #include "core/contour/shape_guard.h"
 #include "core/optimum/layered_quadric.h"

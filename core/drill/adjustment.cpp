@@ -3,7 +3,7 @@
 #include "core/base/stopwatch.h"
 #include "core/base/tolerances.h"
 #include "core/base/triangle.h"
-#include "core/best/displacement.h"
+#include "core/reduced/displacement.h"
 #include "core/reduced/hollow_body.h"
 
 #include <algorithm>

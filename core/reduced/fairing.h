@@ -21,8 +21,8 @@ public:
   bool isSolvable() const { return solver_.info() == Eigen::Success; }
   /// All vertices, with the free ones where nothing presses them. \pre solvable
   Points atRest() const;
-  /// How far the vertices give way where they are pressed (n×r each), 0 for those that rest; of the
-  /// skin that energy stands for, at any scale. \pre solvable
+  /// How far the vertices give way where they are pressed (n×r each), w in −Δw + length² Δ²w = p; 0
+  /// for those that rest. \pre solvable
   RowMatrix deflections(const RowMatrix& pressures) const;
 
 private:

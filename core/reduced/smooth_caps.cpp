@@ -7,8 +7,8 @@
 #include "core/mesh/hole_filling.h"
 #include "core/mesh/signed_volume.h"
 #include "core/optimum/layered_quadric.h"
-#include "core/reduced/adjustment.h"
 #include "core/reduced/cavity_ends.h"
+#include "core/reduced/displacement.h"
 #include "core/reduced/fairing.h"
 #include "core/reduced/hollow_body.h"
 
@@ -108,7 +108,7 @@ private:
   Eigen::Index n_;
   std::unique_ptr<const TriangleTree> moved_; ///< null: the outer surface rests
   std::unique_ptr<const Goal> movedGoal_;
-  std::optional<CavityTask> resting_; ///< empty: the task itself
+  Moments outerMass_;
   VertexAdjacency neighbours_;
   VertexCorners corners_;
   CavityEnds ends_;
@@ -122,13 +122,9 @@ Capping::Capping(const CavityTask& task, const CavityResult& found)
                                     found.outer, task.surface.faces(), TriangleTree::Order::Spatial)
                               : nullptr),
       movedGoal_(task.goalFor ? task.goalFor(found.outer) : nullptr),
-      neighbours_(vertexAdjacency(n_, faces_)), corners_(vertexCorners(n_, faces_)),
-      ends_(cavityEnds(task, found, neighbours_)), isSmooth_(at(ends_.count), 1) {
-  if (!moved_) return;
-  resting_.emplace(CavityTask{*moved_, movedGoal_ ? *movedGoal_ : task.goal, {}, task.weights});
-  resting_->model.fillings = task.model.fillings;
-  resting_->model.solidMoments = outerMoments(task, found);
-}
+      outerMass_(outerMoments(task, found)), neighbours_(vertexAdjacency(n_, faces_)),
+      corners_(vertexCorners(n_, faces_)), ends_(cavityEnds(task, found, neighbours_)),
+      isSmooth_(at(ends_.count), 1) {}
 
 CavityResult Capping::run() {
   constexpr int kAttempts = 4;
@@ -281,31 +277,22 @@ bool Capping::keepsConstraints(const CavityResult& result) const {
 /// Presses the caps in and out until the constraints hold; false where they do not. `atWall`:
 /// vertices that must not move.
 bool Capping::press(const Skin& skin, const Marks& atWall, CavityResult& result) const {
-  constexpr double kUnit = 0.1;  // walls, what the solver's variables are 1 for
-  constexpr double kRange = 4.0; // walls
+  constexpr double kFarthest = 4.0; // walls
   const Eigen::Index terms = task_.goal.usesInertia() ? 10 : 4;
   RowMatrix pressures = RowMatrix::Zero(result.inner.rows(), terms);
-  for (Eigen::Index v = n_; v < result.inner.rows(); ++v) {
+  Points directions = vertexNormals(result.inner, result.cavity.faces);
+  for (Eigen::Index v = 0; v < result.inner.rows(); ++v) {
+    if (v < n_ || atWall[at(v)] != 0) directions.row(v).setZero();
+    if (v < n_) continue;
     pressures.row(v) = monomials(result.inner.row(v).transpose()).head(terms).transpose();
   }
-  RowMatrix deflections = skin.deflections(pressures);
-  Deformation deformation{vertexNormals(result.inner, result.cavity.faces), {}};
-  for (Eigen::Index v = 0; v < result.inner.rows(); ++v) {
-    if (v >= n_ && atWall[at(v)] == 0) continue;
-    deflections.row(v).setZero();
-    deformation.directions.row(v).setZero();
-  }
-  deformation.functions = kUnit * task_.wall * orthogonalFunctions(deflections);
-  if (deformation.functions.size() == 0) return false;
-  MinimizeOptions options;
-  options.feasibility = 0.1 * kFeasibility;
-  options.range = kRange / kUnit;
-  options.maxEvaluations = 20;
-  const MinimizeResult minimum = adjust(resting_ ? *resting_ : task_,
-                                        {result.inner, result.cavity.faces}, deformation, options);
-  result.inner = deformed(result.inner, deformation, minimum.x);
-  result.effort.evaluations += minimum.evaluations;
-  return minimum.violation <= kFeasibility;
+  const Displacement done =
+      displace({movedGoal_ ? *movedGoal_ : task_.goal, task_.weights, task_.model.fillings,
+                outerMass_, task_.model.solidMoments[0], result.cavity.faces, directions,
+                kFarthest * task_.wall, skin.deflections(pressures)},
+               result.inner);
+  result.effort.evaluations += done.evaluations;
+  return done.evaluations > 0 && done.violation <= kFeasibility;
 }
 
 bool Capping::isWorthIt(const CavityResult& result) const {

@@ -103,6 +103,22 @@ long eulerCharacteristic(const TriangleMesh& mesh) {
          static_cast<long>(directedEdges(mesh).size()) / 2 + static_cast<long>(mesh.faces.rows());
 }
 
+double shareOfSharpEdges(const TriangleMesh& mesh, double degrees) {
+  std::map<std::pair<int, int>, Vec3> normalAt;
+  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
+    const Vec3 normal = (corner(mesh, f, 1) - corner(mesh, f, 0))
+                            .cross(corner(mesh, f, 2) - corner(mesh, f, 0))
+                            .normalized();
+    for (int k = 0; k < 3; ++k) normalAt[{mesh.faces(f, k), mesh.faces(f, (k + 1) % 3)}] = normal;
+  }
+  const double cosine = std::cos(degrees * kPi / 180.0);
+  std::size_t sharp = 0;
+  for (const auto& [edge, normal] : normalAt) {
+    if (normal.dot(normalAt.at({edge.second, edge.first})) < cosine) ++sharp;
+  }
+  return normalAt.empty() ? 0.0 : static_cast<double>(sharp) / static_cast<double>(normalAt.size());
+}
+
 std::size_t facesWithoutArea(const TriangleMesh& mesh) {
   std::size_t count = 0;
   for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {

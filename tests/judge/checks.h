@@ -13,6 +13,10 @@ bool isClosedAndOriented(const TriangleMesh& mesh);
 /// Vertices − edges + faces: 2 for a sphere, 0 for a torus, added over components.
 long eulerCharacteristic(const TriangleMesh& mesh);
 
+/// Share of the edges at which the surface turns by more than so many degrees, 0…1: a crumpled
+/// surface has many. \pre closed and oriented
+double shareOfSharpEdges(const TriangleMesh& mesh, double degrees);
+
 /// Number of triangles whose corners lie on a line. Exact.
 std::size_t facesWithoutArea(const TriangleMesh& mesh);
 

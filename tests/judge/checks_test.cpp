@@ -89,5 +89,11 @@ TEST(Checks, CountEdges) {
   EXPECT_FALSE(isClosedAndOriented(open));
 }
 
+TEST(Checks, TellSharpEdges) {
+  const TriangleMesh cube = box({1, 1, 1}, 1); // 12 edges, and 6 across its sides
+  EXPECT_NEAR(shareOfSharpEdges(cube, 89.0), 12.0 / 18.0, 1e-12);
+  EXPECT_EQ(shareOfSharpEdges(cube, 91.0), 0.0);
+}
+
 } // namespace
 } // namespace massprops::testing

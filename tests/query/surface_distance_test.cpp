@@ -71,6 +71,16 @@ TEST_P(RememberedClearance, IsThatOfAMeasurementWithoutMemory) {
     }
     moving.faces.conservativeResize(moving.faces.rows() - 3, 3);
     moving.faces.row(7 * round) = moving.faces.row(7 * round).reverse().eval();
+    // Vertices come and go, too.
+    const Eigen::Index n = moving.vertices.rows();
+    if (round % 4 == 1) {
+      moving.vertices.conservativeResize(n + 1, 3);
+      moving.vertices.row(n) = 0.9 * moving.vertices.row(moving.faces(0, 0));
+      moving.faces(0, 0) = static_cast<int>(n);
+    } else if (round % 4 == 3) {
+      moving.vertices.conservativeResize(n - 1, 3);
+      moving.faces.row(0) = moving.faces.row(1);
+    }
   }
   EXPECT_GT(below, 60U);
 }

@@ -1,23 +1,30 @@
-#include "core/best/displacement.h"
+#include "core/reduced/displacement.h"
 
 #include "core/base/symmetric_eigen.h"
 #include "core/base/tolerances.h"
 #include "core/goals/objective.h"
 #include "core/optimum/layered_quadric.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace massprops {
 namespace {
 
-/// Functions of unit mean square over the vertices that move, orthogonal there: of the terms of a
-/// quadric, or of a plane. n×r, 0 for those that stay.
-RowMatrix functionsOf(const Points& vertices, const Points& directions, Eigen::Index terms) {
+/// Functions of unit mean square over the vertices that move, orthogonal there: of those that are
+/// given or else of the terms of a quadric, or of a plane. n×r, 0 for those that stay.
+RowMatrix functionsOf(const DisplacementTask& task, const Points& vertices) {
+  const bool isGiven = task.functions.size() > 0;
+  const Eigen::Index terms = isGiven ? task.functions.cols() : task.goal.usesInertia() ? 10 : 4;
   RowMatrix values = RowMatrix::Zero(vertices.rows(), terms);
   double count = 0.0;
   for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
-    if (directions.row(v).isZero(0.0)) continue;
-    values.row(v) = monomials(vertices.row(v).transpose()).head(terms).transpose();
+    if (task.directions.row(v).isZero(0.0)) continue;
+    if (isGiven) {
+      values.row(v) = task.functions.row(v);
+    } else {
+      values.row(v) = monomials(vertices.row(v).transpose()).head(terms).transpose();
+    }
     count += 1.0;
   }
   if (count == 0.0) return {};
@@ -30,15 +37,29 @@ RowMatrix functionsOf(const Points& vertices, const Points& directions, Eigen::I
          spectrum.values.tail(rank).cwiseInverse().cwiseSqrt().asDiagonal();
 }
 
+/// The faces with a vertex that moves, or the others.
+Faces facesThat(bool move, const DisplacementTask& task) {
+  Faces result(task.faces.rows(), 3);
+  Eigen::Index count = 0;
+  for (Eigen::Index f = 0; f < task.faces.rows(); ++f) {
+    const auto corners = task.faces.row(f);
+    const bool moves = std::any_of(corners.begin(), corners.end(),
+                                   [&](int v) { return !task.directions.row(v).isZero(0.0); });
+    if (moves == move) result.row(count++) = corners;
+  }
+  return result.topRows(count);
+}
+
 } // namespace
 
 Displacement displace(const DisplacementTask& task, Points& vertices) {
   const Points start = vertices;
   const bool usesInertia = task.goal.usesInertia();
   constexpr double kUnit = 0.05; // of the farthest: what the solver's variables are 1 for
-  const RowMatrix functions =
-      kUnit * task.farthest * functionsOf(start, task.directions, usesInertia ? 10 : 4);
+  const RowMatrix functions = kUnit * task.farthest * functionsOf(task, start);
   if (functions.size() == 0) return {};
+  const Faces moving = facesThat(true, task);
+  const Moments atRest = moments(start, facesThat(false, task), usesInertia);
   const auto displaced = [&](const Vector& q) {
     return Points(start + (functions * q).asDiagonal() * task.directions);
   };
@@ -50,8 +71,8 @@ Displacement displace(const DisplacementTask& task, Points& vertices) {
   };
   const auto evaluateAt = [&](const Vector& q) {
     const Points moved = displaced(q);
-    const BodyState cavity =
-        withJacobian(momentsWithRates(moved, task.faces, task.directions, usesInertia));
+    BodyState cavity = withJacobian(momentsWithRates(moved, moving, task.directions, usesInertia));
+    cavity.mass += atRest;
     const std::vector<BodyState> states =
         bodyStates(task.fillings, outer, cavity, [&](double level) {
           return withJacobian(momentsBelowWithRates(moved, task.faces, task.directions, level));

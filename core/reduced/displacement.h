@@ -15,6 +15,9 @@ struct DisplacementTask {
   /// Where each vertex goes; 0 for those that stay. n×3
   const Points& directions;
   double farthest; ///< root mean square of the displacements, in the directions' unit
+  /// Whose sums they are, n×r, of any size; empty: a polynomial of degree 2, or 1 where moments of
+  /// inertia do not count.
+  RowMatrix functions = {};
 };
 
 struct Displacement {
@@ -22,8 +25,8 @@ struct Displacement {
   double violation = 0.0; ///< largest of the goal's constraints; 0 where no vertex could move
 };
 
-/// Displaces `vertices` along the directions by a polynomial of degree 2, or 1 where moments of
-/// inertia do not count, so that the goal's constraints hold and its objective is least.
+/// Displaces `vertices` along the directions so that the goal's constraints hold and its objective
+/// is least.
 /// `vertices`: as they become; unchanged where none can move.
 Displacement displace(const DisplacementTask& task, Points& vertices);
 

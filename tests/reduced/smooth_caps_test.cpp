@@ -1,0 +1,58 @@
+// Ends of the offset surface in whole runs: smooth, as good, within the guarantee.
+#include "core/pipeline.h"
+
+#include "judge/checks.h"
+#include "judge/guarantee.h"
+#include "samples.h"
+#include "shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <variant>
+
+namespace massprops::testing {
+namespace {
+
+struct End {
+  const char* sample;
+  GoalKind goal;
+  double sharp; ///< share of edges that turn by more than 60°: a fan has 1 to 3 %
+};
+
+void PrintTo(const End& end, std::ostream* os) {
+  *os << end.sample;
+}
+
+class SmoothCaps : public ::testing::TestWithParam<End> {};
+
+TEST_P(SmoothCaps, CloseWhatTheGoalWantsSolid) {
+  const TriangleMesh model = sampleMesh(GetParam().sample);
+  Options options;
+  options.goal = GetParam().goal;
+  options.waterLevel = 0.4;
+  options.cavityShape = CavityShape::Offset;
+  const double diagonal =
+      (model.vertices.colwise().maxCoeff() - model.vertices.colwise().minCoeff()).norm();
+  options.innerLowerBound = 0.01 * diagonal;
+  const Result result = optimizeMassProperties(model, options);
+  ASSERT_GT(result.inner.faces.rows(), 0);
+  EXPECT_LT(shareOfSharpEdges(result.inner, 60.0), GetParam().sharp);
+  EXPECT_TRUE(isClosedAndOriented(result.inner));
+  EXPECT_EQ(intersectingPairs(result.inner), 0U);
+  EXPECT_GE(separation(result.inner, model).least, *options.innerLowerBound);
+  EXPECT_LE(std::get<double>(result.report.at("max_constraint_violation")), 1e-6);
+  // As many walls as vertices, those of the caps included.
+  EXPECT_EQ(result.innerWall.size(), result.inner.vertices.rows());
+  EXPECT_GE(result.innerWall.minCoeff(), *options.innerLowerBound);
+}
+
+INSTANTIATE_TEST_SUITE_P(Samples, SmoothCaps,
+                         ::testing::Values(End{"toy_dinosaur", GoalKind::Stand, 0.005},
+                                           End{"box_on_corner", GoalKind::Stand, 0.001},
+                                           End{"bath_duck", GoalKind::Float, 0.003},
+                                           End{"hanging_fish", GoalKind::Hang, 0.01}));
+
+} // namespace
+} // namespace massprops::testing
