@@ -43,9 +43,8 @@ Result hollowedOrMended(const TriangleMesh& model, const Options& options, Progr
     if (!options.mend) throw;
     defect = surface.what();
   }
-  const RepairedMesh solid = mend(model, options, bar);
   try {
-    return hollowed(solid.mesh, {solid.repairs, {}}, options, bar);
+    return hollowed(model, {mend(model, options, bar), {}}, options, bar);
   } catch (const DefectiveSurface&) {
     throw DefectiveSurface(defect); // of the given model, which the user knows
   }

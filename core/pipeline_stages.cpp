@@ -420,9 +420,10 @@ double solidDepthOf(const PosedModel& posed, const Options& options) {
 
 Preparation::Preparation(const TriangleMesh& model, const Options& options, Resolution resolution,
                          const Known& known)
-    : footing(
-          stand(makeSolid(model, options.openSurface, rotationToUp(options.upAxis), known.mended),
-                options, known.footDepth)),
+    : footing(stand(known.mended
+                        ? *known.mended
+                        : makeSolid(model, options.openSurface, rotationToUp(options.upAxis)),
+                    options, known.footDepth)),
       solid(footing.solid),
       posed(pose(footing, options)), keptSolid{toWorking(posed.frame, options.keptSolid.vertices),
                                                options.keptSolid.faces},
@@ -442,15 +443,17 @@ Preparation prepare(const TriangleMesh& model, const Options& options, ProgressB
   return {model, options, resolution, known};
 }
 
-RepairedMesh mend(const TriangleMesh& model, const Options& options, ProgressBar& bar) {
+Solid mend(const TriangleMesh& model, const Options& options, ProgressBar& bar) {
   bar.show(0, "Mending the model");
   MendingTask task;
   const bool isWallGiven = options.innerLowerBound && *options.innerLowerBound > 0.0;
   task.wall = isWallGiven ? *options.innerLowerBound : kDefaultWall * diagonalOf(model.vertices);
-  task.up = rotationToUp(options.upAxis).transpose() * Vec3::UnitZ();
+  task.rotation = rotationToUp(options.upAxis);
   task.keepsOpenings = options.openSurface;
   task.representable = [&](const Points& points) { return representable(options, points); };
-  return mended(model, task);
+  std::optional<Solid> solid = mended(model, task);
+  if (!solid) throw DefectiveSurface("The surface cannot be mended.");
+  return *std::move(solid);
 }
 
 Foundation coarsen(const Preparation& model, const Options& options, ProgressBar& bar) {

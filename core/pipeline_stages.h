@@ -54,7 +54,7 @@ enum class Resolution { Coarse, Full };
 
 /// What is known of the model from before.
 struct Known {
-  Repairs mended = {};                  ///< done already
+  std::optional<Solid> mended = {};     ///< what was made of it; empty: it needs no mending
   std::optional<double> footDepth = {}; ///< found to be better than the least
 };
 
@@ -89,9 +89,9 @@ double solidDepthOf(const PosedModel& posed, const Options& options);
 Preparation prepare(const TriangleMesh& model, const Options& options, ProgressBar& bar,
                     Resolution resolution = Resolution::Coarse, const Known& known = {});
 
-/// The model as a solid, as far as that can be done.
-/// \throw InvalidInput where it has an opening that is no defect
-RepairedMesh mend(const TriangleMesh& model, const Options& options, ProgressBar& bar);
+/// The model as a solid. \throw DefectiveSurface where it cannot be mended; InvalidInput as well
+/// where it has an opening that is no defect
+Solid mend(const TriangleMesh& model, const Options& options, ProgressBar& bar);
 
 /// The best of all cavities within an outer surface.
 struct Possible {

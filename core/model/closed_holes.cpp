@@ -248,22 +248,45 @@ void leaveSheets(const TriangleMesh& mesh, std::vector<Loop>& loops) {
 }
 
 [[noreturn]] void refuse(std::size_t openings, std::size_t edges) {
-  throw InvalidInput(
+  throw LargeOpening(
       "The surface is open along " + counted(edges, "boundary edge", "boundary edges") + ", and " +
       counted(openings, "opening is", "openings are") +
       " too large to be a hole: switch open_surface on if it is to become a shell with these "
       "openings, or use Remeshing > Close Holes, then run again.");
 }
 
-} // namespace
+/// Refuses large openings, and leaves those open that are seams.
+void requireHoles(const TriangleMesh& mesh, const std::vector<int>& component,
+                  std::vector<Loop>& loops) {
+  const double area = surfaceArea(mesh.vertices, mesh.faces);
+  std::vector<Loop> large;
+  for (const Loop& loop : loops) {
+    if (!loop.isNearGround && loop.area > kMostArea * area) large.push_back(loop);
+  }
+  if (large.empty()) return;
+  leaveSeams(mesh, component, large);
+  std::size_t openings = 0;
+  std::size_t edges = 0;
+  for (const Loop& loop : large) {
+    if (loop.isOpen) continue;
+    ++openings;
+    edges += loop.border.size();
+  }
+  for (Loop& loop : loops) {
+    for (const Loop& other : large) {
+      if (other.border.front() == loop.border.front()) loop.isOpen = other.isOpen;
+    }
+  }
+  if (openings > 0) refuse(openings, edges);
+}
 
-MendedMesh closedHoles(const TriangleMesh& input, const MendingTask& task) {
+MendedMesh closed(const TriangleMesh& input, const MendingTask& task, bool takesOpenings) {
   std::vector<Loop> loops = loopsOf(input);
   if (loops.empty()) return {input};
   const std::vector<int> component = componentNumbers(input.vertices.rows(), input.faces);
   for (Loop& loop : loops) {
     loop.component = component[at(loop.border.front())];
-    loop.isNearGround = isNearGround(input, loop.border, task.up);
+    loop.isNearGround = isNearGround(input, loop.border, task.rotation.transpose() * Vec3::UnitZ());
     // A smooth one would bulge into the ground.
     if (loop.isNearGround) loop.shape = Shape::Taut;
   }
@@ -281,28 +304,7 @@ MendedMesh closedHoles(const TriangleMesh& input, const MendingTask& task) {
     closed = filled(input, loops, task);
     findCrossings(closed, loops);
   }
-
-  const double area = surfaceArea(input.vertices, input.faces);
-  std::vector<Loop> large;
-  for (Loop& loop : loops) {
-    if (!loop.isNearGround && loop.area > kMostArea * area) large.push_back(loop);
-  }
-  if (!large.empty()) {
-    leaveSeams(input, component, large);
-    std::size_t openings = 0;
-    std::size_t edges = 0;
-    for (const Loop& loop : large) {
-      if (loop.isOpen) continue;
-      ++openings;
-      edges += loop.border.size();
-    }
-    for (Loop& loop : loops) {
-      for (const Loop& other : large) {
-        if (other.border.front() == loop.border.front()) loop.isOpen = other.isOpen;
-      }
-    }
-    if (openings > 0) refuse(openings, edges);
-  }
+  if (!takesOpenings) requireHoles(input, component, loops);
   leaveSheets(closed, loops);
   closed = filled(input, loops, task);
 
@@ -315,6 +317,16 @@ MendedMesh closedHoles(const TriangleMesh& input, const MendingTask& task) {
   result.distance = greatestDistance(result.mesh.vertices, result.mesh.faces.bottomRows(patches),
                                      TriangleTree(input.vertices, input.faces));
   return result;
+}
+
+} // namespace
+
+MendedMesh closedHoles(const TriangleMesh& input, const MendingTask& task) {
+  return closed(input, task, false);
+}
+
+MendedMesh closedOpenings(const TriangleMesh& input, const MendingTask& task) {
+  return closed(input, task, true);
 }
 
 } // namespace massprops

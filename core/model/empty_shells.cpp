@@ -16,21 +16,29 @@ MendedMesh withoutEmptyShells(const TriangleMesh& input, const MendingTask& /*ta
   if (components.size() < 2) return {input};
   const double thinnest = placeTolerance(input.vertices);
   const double roundOff = 1e-12 * std::pow(diagonalOf(input.vertices), 3);
+  constexpr double kFlat = 1e-3; // of a cube with this surface: 0.068
+  constexpr double kLittle = 0.05;
   std::vector<TriangleMesh> kept;
   std::size_t empty = 0;
+  double sheets = 0.0; // their area
   for (Submesh& component : components) {
     const auto& [vertices, faces] = component.mesh;
     const bool isClosed = countEdges(vertices.rows(), faces).boundary == 0;
     const double volume = std::abs(signedVolume(vertices, faces));
+    const double area = surfaceArea(vertices, faces);
     // Two sides.
-    const double thickness = 2.0 * volume / surfaceArea(vertices, faces);
-    if (isClosed && !(thickness > thinnest && volume > roundOff)) {
-      ++empty;
-    } else {
+    const double thickness = 2.0 * volume / area;
+    const bool isEmpty = isClosed ? !(thickness > thinnest && volume > roundOff)
+                                  : volume < kFlat * std::pow(area, 1.5);
+    if (!isEmpty) {
       kept.push_back(std::move(component.mesh));
+      continue;
     }
+    ++empty;
+    if (!isClosed) sheets += area;
   }
-  if (empty == 0 || kept.empty()) return {input};
+  const bool isMuch = sheets > kLittle * surfaceArea(input.vertices, input.faces);
+  if (empty == 0 || kept.empty() || isMuch) return {input};
   return {assembled(kept), counted(empty, "component", "components") + " without volume left out"};
 }
 

@@ -6,7 +6,7 @@
 namespace massprops {
 
 /// Leaves out closed components thinner on average than can be told from nothing, where others are
-/// left.
+/// left, and open ones that no patch makes a body of, where they are little of the surface.
 MendedMesh withoutEmptyShells(const TriangleMesh& input, const MendingTask& task);
 
 } // namespace massprops

@@ -45,7 +45,7 @@ std::vector<Side> sidesOf(const Faces& faces) {
 
 /// Faces of one edge in pairs that bound a wedge of material: seen along the edge,
 /// counter-clockwise from a face that runs against it, behind which the material begins, to one
-/// that runs along it.
+/// that runs along it. Faces that are left are with −1.
 std::vector<std::pair<int, int>> wedges(const TriangleMesh& mesh, const Side* begin,
                                         const Side* end) {
   const Vec3 origin = mesh.vertices.row(begin->low).transpose();
@@ -80,6 +80,9 @@ std::vector<std::pair<int, int>> wedges(const TriangleMesh& mesh, const Side* be
       open.pop_back();
     }
   }
+  for (std::size_t r = 0; r < rays.size(); ++r) {
+    if (isPaired[r] == 0) pairs.emplace_back(rays[r].halfEdge, -1);
+  }
   return pairs;
 }
 
@@ -110,7 +113,7 @@ private:
 /// An edge of more than two faces and the half-edges that are paired there.
 struct Pinch {
   int low, high;
-  std::vector<std::pair<int, int>> pairs;
+  std::vector<std::pair<int, int>> pairs; ///< as of `wedges`
 };
 
 /// Lets the corners stay together that are connected across edges.
@@ -128,7 +131,9 @@ std::vector<Pinch> joinAcrossEdges(const TriangleMesh& mesh, CornerSets& sets) {
     } else if (end - i > 1) {
       pinches.push_back(
           {sides[i].low, sides[i].high, wedges(mesh, sides.data() + i, sides.data() + end)});
-      for (const auto& [h, g] : pinches.back().pairs) sets.join(h, g);
+      for (const auto& [h, g] : pinches.back().pairs) {
+        if (g >= 0) sets.join(h, g);
+      }
     }
     i = end;
   }
@@ -138,7 +143,8 @@ std::vector<Pinch> joinAcrossEdges(const TriangleMesh& mesh, CornerSets& sets) {
 /// Whether two pairs keep both ends in common, so that parting vertices does not part the edge.
 bool staysPinched(const Pinch& pinch, const Faces& faces, CornerSets& sets) {
   std::vector<std::pair<int, int>> ends;
-  for (const auto& [h, g] : pinch.pairs) {
+  for (const auto& pair : pinch.pairs) {
+    const int h = pair.first;
     const int from = faces.data()[h] == pinch.low ? h : nextHalfEdge(h);
     const int to = from == h ? nextHalfEdge(h) : h;
     ends.emplace_back(sets.of(from), sets.of(to));
@@ -184,9 +190,7 @@ TriangleMesh withMiddles(const TriangleMesh& mesh, const std::vector<const Pinch
   return result;
 }
 
-} // namespace
-
-MendedMesh splitToManifold(const TriangleMesh& given, const MendingTask& /*task*/) {
+MendedMesh splitOnce(const TriangleMesh& given) {
   TriangleMesh input = given;
   auto sets = std::make_unique<CornerSets>(input.faces.size());
   std::vector<Pinch> pinches = joinAcrossEdges(input, *sets);
@@ -208,6 +212,9 @@ MendedMesh splitToManifold(const TriangleMesh& given, const MendingTask& /*task*
   std::vector<Vec3> added;
   std::size_t vertices = 0;
   const double most = placeTolerance(input.vertices);
+  // So that they are apart as floats.
+  constexpr double kFloats = 2.5e-7;
+  const double least = kFloats * input.vertices.cwiseAbs().maxCoeff();
   for (Eigen::Index v = 0; v < input.vertices.rows(); ++v) {
     std::vector<int> roots;
     for (const int c : corners.at(v)) roots.push_back(sets->of(c));
@@ -229,7 +236,8 @@ MendedMesh splitToManifold(const TriangleMesh& given, const MendingTask& /*task*
         shortest = std::min(shortest, (input.vertices.row(next).transpose() - place).norm());
         mesh.faces.data()[c] = number;
       }
-      const Vec3 moved = place - std::min(most, 0.1 * shortest) * normal.stableNormalized();
+      const Vec3 moved =
+          place - std::clamp(0.1 * shortest, least, most) * normal.stableNormalized();
       if (r == 0) {
         mesh.vertices.row(v) = moved.transpose();
       } else {
@@ -247,6 +255,21 @@ MendedMesh splitToManifold(const TriangleMesh& given, const MendingTask& /*task*
   result.done = edges > 0
                     ? counted(edges, "non-manifold edge", "non-manifold edges") + " parted"
                     : counted(vertices, "non-manifold vertex", "non-manifold vertices") + " parted";
+  return result;
+}
+
+} // namespace
+
+MendedMesh splitToManifold(const TriangleMesh& given, const MendingTask& /*task*/) {
+  MendedMesh result = splitOnce(given);
+  // Where edges met that are parted now, others may still hold together.
+  constexpr int kMore = 8;
+  for (int round = 0; round < kMore && !result.done.empty(); ++round) {
+    MendedMesh next = splitOnce(result.mesh);
+    if (next.done.empty()) break;
+    result.mesh = std::move(next.mesh);
+    result.distance += next.distance;
+  }
   return result;
 }
 

@@ -1,14 +1,16 @@
 #include "core/model/mending.h"
 
+#include "core/mesh/connectivity.h"
 #include "core/model/closed_holes.h"
 #include "core/model/empty_shells.h"
 #include "core/model/local_crossings.h"
+#include "core/model/loose_sheets.h"
 #include "core/model/manifold_split.h"
 #include "core/model/seams.h"
 #include "core/model/shell_orientation.h"
-#include "core/model/solid.h"
 #include "core/model/united_bodies.h"
 #include "core/model/wrapping.h"
+#include "core/query/winding_volume.h"
 
 #include <algorithm>
 #include <string>
@@ -18,64 +20,104 @@
 namespace massprops {
 namespace {
 
-/// Of an open surface that keeps its openings: what leads to a manifold.
-const std::vector<MendingStep> kToManifold = {joinedSeams, orientedShells, splitToManifold};
-/// From there to a solid.
-const std::vector<MendingStep> kToSolid = {closedHoles, withoutLocalCrossings, withoutEmptyShells};
+using Way = std::vector<MendingStep>;
+
+/// From any triangles to a manifold.
+const Way kToManifold = {joinedSeams, orientedShells, withoutLooseSheets, splitToManifold};
+/// From there to a solid, after its holes are closed.
+const Way kToSolid = {withoutLocalCrossings, withoutEmptyShells};
 /// What a union leaves is rounded to what the caller can store, and may have slivers that cross:
 /// the same again.
-const std::vector<MendingStep> kUnion = {unitedBodies, joinedSeams, withoutLocalCrossings,
-                                         withoutEmptyShells};
-constexpr int kMostUnions = 3;
+const Way kUnion = {unitedBodies, joinedSeams, withoutLocalCrossings, withoutEmptyShells};
+constexpr int kMostUnions = 6;
 
-bool isSolid(const TriangleMesh& mesh, bool keepsOpenings) {
+/// Does the steps and writes down what they did. Returns whether they did anything.
+bool take(const Way& way, const MendingTask& task, RepairedMesh& model) {
+  bool isChanged = false;
+  for (const MendingStep step : way) {
+    MendedMesh next = step(model.mesh, task);
+    if (next.done.empty()) continue;
+    isChanged = true;
+    model.mesh = std::move(next.mesh);
+    model.mesh.vertices = task.representable(model.mesh.vertices);
+    Repairs& repairs = model.repairs;
+    repairs.mended += (repairs.mended.empty() ? "" : ", ") + next.done;
+    repairs.distance = std::max(repairs.distance, next.distance);
+    if (!next.warning.empty()) repairs.warning = next.warning;
+  }
+  return isChanged;
+}
+
+std::optional<Solid> solidOf(const RepairedMesh& model, const MendingTask& task) {
   try {
-    requireNoCrossings(makeSolid(mesh, keepsOpenings));
-    return true;
+    return withoutCrossings(
+        makeSolid(model.mesh, task.keepsOpenings, task.rotation, model.repairs));
+  } catch (const DefectiveSurface&) {
+    return std::nullopt;
+  }
+}
+
+/// Whether `open_surface` can make a shell of it.
+bool isVase(const RepairedMesh& manifold, MendingTask task) {
+  task.keepsOpenings = true;
+  try {
+    return solidOf(manifold, task).has_value();
   } catch (const InvalidInput&) {
     return false;
   }
 }
 
-/// Does the step and writes down what it did. Returns whether it did anything.
-bool take(MendingStep step, const MendingTask& task, RepairedMesh& model) {
-  MendedMesh next = step(model.mesh, task);
-  if (next.done.empty()) return false;
-  model.mesh = std::move(next.mesh);
-  model.mesh.vertices = task.representable(model.mesh.vertices);
-  Repairs& repairs = model.repairs;
-  repairs.mended += (repairs.mended.empty() ? "" : ", ") + next.done;
-  repairs.distance = std::max(repairs.distance, next.distance);
-  if (!next.warning.empty()) repairs.warning = next.warning;
-  return true;
+/// `closing`: the step that closes what is open.
+std::optional<Solid> solidFrom(RepairedMesh manifold, MendingStep closing,
+                               const MendingTask& task) {
+  RepairedMesh& model = manifold;
+  take({closing}, task, model);
+  take(kToSolid, task, model);
+  std::optional<Solid> solid = solidOf(model, task);
+  for (int round = 0; !solid && round < kMostUnions; ++round) {
+    if (!take(kUnion, task, model)) break;
+    solid = solidOf(model, task);
+  }
+  return solid;
 }
 
-/// Whether the way led to a solid.
-bool go(const std::vector<MendingStep>& way, const MendingTask& task, RepairedMesh& model) {
-  for (const MendingStep step : way) {
-    if (take(step, task, model) && isSolid(model.mesh, task.keepsOpenings)) return true;
-  }
-  return false;
+/// Whether it is about as large as what the triangles enclose.
+bool hasVolumeOf(const TriangleMesh& mesh, const Solid& solid) {
+  constexpr double kLeast = 0.7;
+  constexpr double kMost = 1.6; // an open bowl goes round less than it holds
+  const WindingVolume volumes = windingVolumes(mesh, {solid.vertices(), solid.faces()});
+  return volumes.otherVolume >= kLeast * volumes.volume &&
+         volumes.otherVolume <= kMost * volumes.volume;
 }
+
+constexpr const char* kWasOpen =
+    "The surface has an opening like a vase's, but no shell can be made of it: it was closed, so "
+    "look at the new outer surface.";
 
 } // namespace
 
-RepairedMesh mended(const TriangleMesh& input, const MendingTask& task) {
-  RepairedMesh model = mergedAndCompacted(input);
-  if (isSolid(model.mesh, task.keepsOpenings)) return model;
-  if (go(kToManifold, task, model) || task.keepsOpenings) return model;
-  const RepairedMesh manifold = model;
-  if (go(kToSolid, task, model)) return model;
-  for (int round = 0; round < kMostUnions; ++round) {
-    const std::string before = model.repairs.mended;
-    if (go(kUnion, task, model)) return model;
-    if (model.repairs.mended == before) break;
+std::optional<Solid> mended(const TriangleMesh& input, const MendingTask& task) {
+  RepairedMesh manifold = mergedAndCompacted(input);
+  take(kToManifold, task, manifold);
+  if (task.keepsOpenings) return solidOf(manifold, task);
+
+  MendingStep closing = closedHoles;
+  try {
+    std::optional<Solid> solid = solidFrom(manifold, closing, task);
+    if (solid) return solid;
+  } catch (const LargeOpening&) {
+    if (isVase(manifold, task)) throw;
+    manifold.repairs.warning = kWasOpen;
+    closing = closedOpenings;
+  }
+  // Seams of a surface in pieces may be closed one by one.
+  if (countEdges(manifold.mesh.vertices.rows(), manifold.mesh.faces).boundary > 0) {
+    std::optional<Solid> solid = solidFrom(manifold, closedOpenings, task);
+    if (solid && hasVolumeOf(manifold.mesh, *solid)) return solid;
   }
   // What was tried since is left to the wrap, but for holes that it need not find again.
-  RepairedMesh closed = manifold;
-  take(closedHoles, task, closed);
-  take(wrapped, task, closed);
-  return closed;
+  take({closing, wrapped}, task, manifold);
+  return solidOf(manifold, task);
 }
 
 } // namespace massprops

@@ -11,9 +11,9 @@ namespace massprops {
 
 /// What the steps may go by.
 struct MendingTask {
-  double wall = 0.0;          ///< length; nothing that moves the surface less than this can be felt
-  Vec3 up = Vec3::UnitZ();    ///< unit
-  bool keepsOpenings = false; ///< whether the surface is to become a shell with its openings
+  double wall = 0.0; ///< length; nothing that moves the surface less than this can be felt
+  Mat3 rotation = Mat3::Identity(); ///< that puts the model upright, +z
+  bool keepsOpenings = false;       ///< whether the surface is to become a shell with its openings
   /// Rounds points to what the caller can store.
   std::function<Points(const Points&)> representable = [](const Points& points) { return points; };
 };

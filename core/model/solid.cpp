@@ -115,7 +115,7 @@ void requireNoSelfIntersection(const Points& vertices, const Faces& faces,
       TriangleTree(vertices, faces, spatialFaceOrder, TriangleTree::Queries::NoDistances));
   const std::size_t crossing = crossingFaces.size();
   if (crossing > 0 && crossingFaces.back() >= skinFaces) {
-    throw InvalidInput(
+    throw DefectiveSurface(
         "A lid that closes an opening of the surface, which open_surface needs for "
         "its own calculations, crosses the surface: close the opening with Remeshing > "
         "Close Holes, or cut the model where its openings are flat, then run again.");
@@ -325,6 +325,12 @@ void requireNoCrossings(const Solid& solid) {
   if (!solid.mayCross_) return;
   requireNoSelfIntersection(solid.vertices(), solid.faces(), solid.spatialFaceOrder_,
                             solid.faces().rows());
+}
+
+Solid withoutCrossings(Solid solid) {
+  requireNoCrossings(solid);
+  solid.mayCross_ = false;
+  return solid;
 }
 
 } // namespace massprops

@@ -41,6 +41,7 @@ private:
   friend Solid makeSolid(const TriangleMesh& input, bool closeOpenings, const Mat3& rotation,
                          const Repairs& before);
   friend void requireNoCrossings(const Solid& solid);
+  friend Solid withoutCrossings(Solid solid);
   TriangleMesh mesh_;
   TriangleMesh cavities_;
   double diagonal_ = 0.0;
@@ -64,5 +65,8 @@ Solid makeSolid(const TriangleMesh& input, bool closeOpenings = false,
 /// the work and may be done beside the first stages that use the solid.
 /// \throw DefectiveSurface as `makeSolid` does
 void requireNoCrossings(const Solid& solid);
+
+/// The same, for which `requireNoCrossings` has nothing left to do. \throw DefectiveSurface
+Solid withoutCrossings(Solid solid);
 
 } // namespace massprops

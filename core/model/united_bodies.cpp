@@ -2,6 +2,7 @@
 
 #include "core/base/triangle.h"
 #include "core/mesh/components.h"
+#include "core/mesh/patches.h"
 #include "core/mesh/signed_volume.h"
 #include "core/model/crossing_refinement.h"
 #include "core/model/manifold_split.h"
@@ -13,6 +14,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -68,46 +71,6 @@ TriangleMesh outward(const TriangleMesh& mesh, const std::vector<int>& crossing)
   return result;
 }
 
-/// Faces that are connected across edges of two faces, which agree in orientation.
-std::vector<std::vector<int>> patchesOf(const Faces& faces) {
-  std::vector<std::array<int, 4>> sides; // edge, face, direction
-  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      const int a = faces(f, k);
-      const int b = faces(f, (k + 1) % 3);
-      sides.push_back({std::min(a, b), std::max(a, b), static_cast<int>(f), a < b ? 1 : 0});
-    }
-  }
-  std::sort(sides.begin(), sides.end());
-  std::vector<std::vector<int>> next(at(faces.rows()));
-  for (std::size_t i = 0; i < sides.size();) {
-    std::size_t end = i;
-    while (end < sides.size() && sides[end][0] == sides[i][0] && sides[end][1] == sides[i][1])
-      ++end;
-    if (end - i == 2 && sides[i][3] != sides[i + 1][3]) {
-      next[at(sides[i][2])].push_back(sides[i + 1][2]);
-      next[at(sides[i + 1][2])].push_back(sides[i][2]);
-    }
-    i = end;
-  }
-  std::vector<std::vector<int>> patches;
-  std::vector<char> isKnown(at(faces.rows()), 0);
-  for (Eigen::Index seed = 0; seed < faces.rows(); ++seed) {
-    if (isKnown[at(seed)] != 0) continue;
-    std::vector<int> patch{static_cast<int>(seed)};
-    isKnown[at(seed)] = 1;
-    for (std::size_t i = 0; i < patch.size(); ++i) {
-      for (const int g : next[at(patch[i])]) {
-        if (isKnown[at(g)] != 0) continue;
-        isKnown[at(g)] = 1;
-        patch.push_back(g);
-      }
-    }
-    patches.push_back(std::move(patch));
-  }
-  return patches;
-}
-
 /// Whether the material ends at the patch: told in the middle of its roundest large face.
 bool isBoundary(const TriangleMesh& mesh, const std::vector<int>& patch,
                 const WindingNumber& winding) {
@@ -132,6 +95,44 @@ bool isBoundary(const TriangleMesh& mesh, const std::vector<int>& patch,
   constexpr double kBeside = 0.01;
   return winding.at(middle + kBeside * widest * normal) < 0.5 &&
          winding.at(middle - kBeside * widest * normal) >= 0.5;
+}
+
+/// Turns the choice of single patches over, as long as fewer edges are left with more faces along
+/// than against them: where a patch is next to nothing it cannot be told what is beside it.
+void balance(const Faces& faces, const std::vector<std::vector<int>>& patches,
+             std::vector<char>& isKept) {
+  using Edge = std::pair<int, int>;
+  std::vector<std::map<Edge, int>> borders(patches.size()); // how many more run along than against
+  std::map<Edge, int> sum;                                  // of those that are kept
+  for (std::size_t p = 0; p < patches.size(); ++p) {
+    for (const int f : patches[p]) {
+      for (int k = 0; k < 3; ++k) {
+        const int a = faces(f, k);
+        const int b = faces(f, (k + 1) % 3);
+        borders[p][std::minmax(a, b)] += a < b ? 1 : -1;
+      }
+    }
+    for (auto edge = borders[p].begin(); edge != borders[p].end();) {
+      edge = edge->second == 0 ? borders[p].erase(edge) : std::next(edge);
+    }
+    for (const auto& [edge, along] : borders[p]) sum[edge] += isKept[p] != 0 ? along : 0;
+  }
+  constexpr int kRounds = 10;
+  bool isChanged = true;
+  for (int round = 0; isChanged && round < kRounds; ++round) {
+    isChanged = false;
+    for (std::size_t p = 0; p < patches.size(); ++p) {
+      const int sign = isKept[p] != 0 ? -1 : 1;
+      int gain = 0;
+      for (const auto& [edge, along] : borders[p]) {
+        gain += std::abs(sum[edge]) - std::abs(sum[edge] + sign * along);
+      }
+      if (gain <= 0) continue;
+      for (const auto& [edge, along] : borders[p]) sum[edge] += sign * along;
+      isKept[p] ^= 1;
+      isChanged = true;
+    }
+  }
 }
 
 /// Components of bodies that do not cross: those that bound material from outside, and the cavities
@@ -180,11 +181,18 @@ MendedMesh united(const TriangleMesh& input, const std::vector<int>& crossing,
   const TriangleMesh pieces = cutAlongCrossings(bodies, crossing);
   if (pieces.faces.rows() == 0) return {input};
   const WindingNumber winding(bodies.vertices, bodies.faces);
+  const std::vector<std::vector<int>> patches = manifoldPatches(pieces.faces);
+  std::vector<char> isKept;
+  isKept.reserve(patches.size());
+  for (const std::vector<int>& patch : patches) {
+    isKept.push_back(isBoundary(pieces, patch, winding) ? 1 : 0);
+  }
+  balance(pieces.faces, patches, isKept);
   Faces kept(pieces.faces.rows(), 3);
   Eigen::Index rows = 0;
-  for (const std::vector<int>& patch : patchesOf(pieces.faces)) {
-    if (!isBoundary(pieces, patch, winding)) continue;
-    for (const int f : patch) kept.row(rows++) = pieces.faces.row(f);
+  for (std::size_t p = 0; p < patches.size(); ++p) {
+    if (isKept[p] == 0) continue;
+    for (const int f : patches[p]) kept.row(rows++) = pieces.faces.row(f);
   }
   kept.conservativeResize(rows, 3);
   if (rows == 0 || !isBalanced(kept)) return {input};

@@ -2,6 +2,7 @@
 
 #include "core/base/triangle.h"
 #include "core/mesh/cgal_mesh.h"
+#include "core/mesh/components.h"
 #include "core/mesh/degenerate_faces.h"
 #include "core/mesh/signed_volume.h"
 #include "core/query/self_intersection.h"
@@ -12,9 +13,13 @@
 
 #include <CGAL/alpha_wrap_3.h>
 
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <exception>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -25,8 +30,55 @@ namespace {
 
 /// Beyond these it is another model.
 constexpr double kMostVolume = 0.03;
-/// Of the box's diagonal, from the finest ball to the coarsest.
-constexpr double kBalls[] = {1.0 / 60.0, 1.0 / 30.0, 1.0 / 15.0};
+/// Radii of the ball that rolls around the model, of the box's diagonal.
+constexpr double kFinestBall = 1.0 / 100.0;
+constexpr double kCoarsestBall = 1.0 / 12.0;
+
+/// Edges of one face beyond which there is air, as faces that use a corner twice.
+Faces openEdges(const TriangleMesh& mesh, const TriangleTree& surface, double beyond) {
+  std::map<std::pair<int, int>, std::pair<int, int>> sides; // how many faces, and one of them
+  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      auto& [count, face] = sides[std::minmax(mesh.faces(f, k), mesh.faces(f, (k + 1) % 3))];
+      ++count;
+      face = static_cast<int>(f);
+    }
+  }
+  std::vector<Eigen::RowVector3i> open;
+  for (const auto& [edge, of] : sides) {
+    if (of.first != 1) continue;
+    const Vec3 a = mesh.vertices.row(edge.first).transpose();
+    const Vec3 b = mesh.vertices.row(edge.second).transpose();
+    const Vec3 normal = areaNormal(mesh.vertices, mesh.faces, of.second).stableNormalized();
+    const Vec3 middle = 0.5 * (a + b);
+    Vec3 out = (b - a).cross(normal).stableNormalized();
+    const int third = mesh.faces.row(of.second).sum() - edge.first - edge.second;
+    if (out.dot(mesh.vertices.row(third).transpose() - middle) > 0.0) out = -out;
+    constexpr double kAir = 0.9;
+    const double air = kAir * beyond;
+    if (surface.nearest(middle + beyond * out, air * air).face < 0)
+      open.emplace_back(edge.first, edge.second, edge.first);
+  }
+  Faces result(static_cast<Eigen::Index>(open.size()), 3);
+  for (std::size_t i = 0; i < open.size(); ++i) result.row(static_cast<Eigen::Index>(i)) = open[i];
+  return result;
+}
+
+/// A ball with this radius gets through no hole whose border hangs together, as far as holes are
+/// flat.
+double radiusOfHoles(const TriangleMesh& mesh, const TriangleTree& surface, double beyond) {
+  const Faces open = openEdges(mesh, surface, beyond);
+  double radius = 0.0;
+  for (const Submesh& border : componentMeshes(mesh.vertices, open)) {
+    const Points& p = border.mesh.vertices;
+    const Points centred = p.rowwise() - p.colwise().mean();
+    // Across the middle one of the border's three directions it is as narrow as a ball sees it.
+    const Eigen::SelfAdjointEigenSolver<Mat3> axes(Mat3(centred.transpose() * centred));
+    const Vector along = centred * axes.eigenvectors().col(1);
+    radius = std::max(radius, 0.5 * (along.maxCoeff() - along.minCoeff()));
+  }
+  return radius;
+}
 
 std::optional<TriangleMesh> wrapOf(const TriangleMesh& mesh, double ball, double offset) {
   std::vector<SurfaceKernel::Point_3> points;
@@ -110,13 +162,15 @@ MendedMesh wrapped(const TriangleMesh& input, const MendingTask& task) {
   constexpr double kNothing = 1e-4;
   if (!(volume > kNothing * std::pow(diagonal, 3))) return {input};
 
-  // A ball that fits through a gap leaves the hollow inside.
+  // A ball that fits through a hole leaves the hollow inside.
   constexpr double kKept = 0.9;
+  constexpr double kLarger = 1.5;
+  const double holes = radiusOfHoles(input, surface, 0.5 * kFinestBall * diagonal);
   std::optional<TriangleMesh> wrap;
-  for (const double ball : kBalls) {
-    wrap = wrapOf(input, ball * diagonal, offset);
-    if (wrap && signedVolume(wrap->vertices, wrap->faces) >= kKept * volume) break;
-    wrap.reset();
+  for (double ball = std::clamp(holes, kFinestBall * diagonal, kCoarsestBall * diagonal);
+       !wrap && ball <= kCoarsestBall * diagonal; ball *= kLarger) {
+    wrap = wrapOf(input, ball, offset);
+    if (wrap && signedVolume(wrap->vertices, wrap->faces) < kKept * volume) wrap.reset();
   }
   if (!wrap) return {input};
   wrap = tightened(*wrap, surface, offset, task);

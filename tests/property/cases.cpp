@@ -440,7 +440,8 @@ std::string upName(UpAxis up) {
 }
 
 /// Defects as published models have them: faces turned over, twice, and with corners of their own
-/// that lie apart by little; one vertex without its faces, a hole.
+/// that lie apart by little; edges cut on one side only; one vertex
+/// without its faces, a hole.
 TriangleMesh broken(const TriangleMesh& mesh, Chance& chance, std::string& how) {
   TriangleMesh result = mesh;
   const auto n = static_cast<int>(mesh.faces.rows());
@@ -464,6 +465,19 @@ TriangleMesh broken(const TriangleMesh& mesh, Chance& chance, std::string& how) 
   if (how.empty() || chance.oneIn(2)) {
     how += " loose";
     result = jittered(unwelded(result), 1e-6 * diagonalOf(mesh), 5);
+  }
+  if (chance.oneIn(4)) {
+    how += " T-junctions";
+    for (int i = 0; i < 5; ++i) {
+      const int f = chance.integer(0, n / 2);
+      const Eigen::RowVector3i face = result.faces.row(f);
+      const auto v = static_cast<int>(result.vertices.rows());
+      result.vertices.conservativeResize(v + 1, 3);
+      result.vertices.row(v) = 0.5 * (result.vertices.row(face[0]) + result.vertices.row(face[1]));
+      result.faces.row(f) << face[0], v, face[2];
+      result.faces.conservativeResize(result.faces.rows() + 1, 3);
+      result.faces.row(result.faces.rows() - 1) << v, face[1], face[2];
+    }
   }
   if (chance.oneIn(3)) {
     how += " double faces";
