@@ -133,6 +133,7 @@ void print(const Case& c, const Trial& t) {
   } else {
     std::printf("%.1f s, %.0f MB", t.cpu, t.megabytes);
   }
+  if (t.isTurned) std::printf("; +Y");
   if (t.isShell) std::printf("; shell");
   if (t.outcome == Outcome::NothingFits)
     std::printf("; %s: %.2f walls deep", isContradicted(t) ? "CONTRADICTED" : "confirmed",

@@ -221,11 +221,21 @@ bool work(const TriangleMesh& model, Options& options, const Limits& limits, Tri
     return false;
   };
   bool isDone = attempt();
-  const bool isVase = !isDone && trial.outcome == Outcome::Refused && !options.openSurface &&
-                      std::string(trial.reason).find("open_surface") != std::string::npos;
-  if (isVase) {
+  const auto isVase = [&] {
+    return !isDone && trial.outcome == Outcome::Refused &&
+           std::string(trial.reason).find("open_surface") != std::string::npos;
+  };
+  // Many are made with y upwards, so that their open base is there.
+  if (isVase()) {
+    trial = {};
+    trial.isTurned = true;
+    options.upAxis = UpAxis::PlusY;
+    isDone = attempt();
+  }
+  if (isVase()) {
     trial = {};
     trial.isShell = options.openSurface = true;
+    options.upAxis = UpAxis::PlusZ;
     isDone = attempt();
   }
   trial.cpu = cpuSeconds() - before;
@@ -281,11 +291,11 @@ void tryOut(const Case& c, const Limits& limits, const std::function<void(const 
   const double wall = *options.innerLowerBound;
   Result result;
   const bool isDone = work(model, options, limits, trial, result);
-  trial.faces = static_cast<long>(model.faces.rows());
   if (isDone) {
     readReport(result, c, wall, trial);
     trial.outcome = trial.innerFaces > 0 ? Outcome::Hollow : Outcome::NothingFits;
   }
+  trial.faces = static_cast<long>(model.faces.rows());
   tell(trial);
 
   constexpr double kJudgingSeconds = 900.0;

@@ -42,7 +42,8 @@ struct Trial {
   Outcome outcome = Outcome::Failed;
   char reason[240] = ""; ///< of a refusal or failure, or what is broken
   char repairs[160] = "";
-  bool isShell = false; ///< only with `open_surface`
+  bool isTurned = false; ///< only with +Y as up axis
+  bool isShell = false;  ///< only with `open_surface`
   bool isWrapped = false;
   bool isSolved = false;
   bool isSmall = false; ///< the gain that is possible

@@ -86,7 +86,8 @@ MendedMesh withoutLooseSheets(const TriangleMesh& input, const MendingTask& /*ta
       isAttached = isAttached || others > 1;
       isNeeded = isNeeded || others == 1;
     }
-    if (!isAttached || isNeeded) continue;
+    constexpr double kMost = 0.25; // more is no wall but a body
+    if (!isAttached || isNeeded || areaOf(input, sheet) > kMost * area) continue;
     // A flap on the surface ends in the air; a large part of the surface may have a hole.
     constexpr double kSmall = 0.01;
     const bool isFlap = std::any_of(own.begin(), own.end(),

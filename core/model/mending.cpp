@@ -13,6 +13,7 @@
 #include "core/query/winding_volume.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -67,6 +68,13 @@ bool isVase(const RepairedMesh& manifold, MendingTask task) {
   }
 }
 
+/// Whether it is about as large as what the triangles enclose.
+bool hasVolumeOf(const TriangleMesh& mesh, const Solid& solid) {
+  constexpr double kMost = 0.1;
+  const WindingVolume volumes = windingVolumes(mesh, {solid.vertices(), solid.faces()});
+  return std::abs(volumes.otherVolume - volumes.volume) <= kMost * volumes.volume;
+}
+
 /// `closing`: the step that closes what is open.
 std::optional<Solid> solidFrom(RepairedMesh manifold, MendingStep closing,
                                const MendingTask& task) {
@@ -74,20 +82,16 @@ std::optional<Solid> solidFrom(RepairedMesh manifold, MendingStep closing,
   take({closing}, task, model);
   take(kToSolid, task, model);
   std::optional<Solid> solid = solidOf(model, task);
+  const TriangleMesh bodies = solid ? TriangleMesh{} : model.mesh;
+  bool isUnion = false;
   for (int round = 0; !solid && round < kMostUnions; ++round) {
     if (!take(kUnion, task, model)) break;
+    isUnion = true;
     solid = solidOf(model, task);
   }
+  // What came of a union may lack a body.
+  if (solid && isUnion && !hasVolumeOf(bodies, *solid)) solid.reset();
   return solid;
-}
-
-/// Whether it is about as large as what the triangles enclose.
-bool hasVolumeOf(const TriangleMesh& mesh, const Solid& solid) {
-  constexpr double kLeast = 0.7;
-  constexpr double kMost = 1.6; // an open bowl goes round less than it holds
-  const WindingVolume volumes = windingVolumes(mesh, {solid.vertices(), solid.faces()});
-  return volumes.otherVolume >= kLeast * volumes.volume &&
-         volumes.otherVolume <= kMost * volumes.volume;
 }
 
 constexpr const char* kWasOpen =
@@ -110,10 +114,11 @@ std::optional<Solid> mended(const TriangleMesh& input, const MendingTask& task) 
     manifold.repairs.warning = kWasOpen;
     closing = closedOpenings;
   }
-  // Seams of a surface in pieces may be closed one by one.
+  // Seams of a surface in pieces may be closed one by one, if that does not fill what is hollow.
   if (countEdges(manifold.mesh.vertices.rows(), manifold.mesh.faces).boundary > 0) {
     std::optional<Solid> solid = solidFrom(manifold, closedOpenings, task);
-    if (solid && hasVolumeOf(manifold.mesh, *solid)) return solid;
+    const bool isOpening = closing == closedOpenings;
+    if (solid && (isOpening || hasVolumeOf(manifold.mesh, *solid))) return solid;
   }
   // What was tried since is left to the wrap, but for holes that it need not find again.
   take({closing, wrapped}, task, manifold);

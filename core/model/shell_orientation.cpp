@@ -6,6 +6,7 @@
 #include "core/query/triangle_tree.h"
 
 #include <algorithm>
+#include <memory>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -102,8 +103,36 @@ Patches patchesOf(const TriangleMesh& mesh, const Adjacency& adjacency) {
   return result;
 }
 
-/// Whether most of the patch's area has the inside in front of it.
-bool facesInward(const TriangleMesh& mesh, std::vector<int> patch, const PointInMesh& inside,
+/// Inside as most of three rays along different axes say it: one may leave through a hole.
+class InsideOfMost {
+public:
+  explicit InsideOfMost(const TriangleMesh& mesh) {
+    Points points = mesh.vertices;
+    for (std::size_t k = 0; k < 3; ++k) {
+      turned_[k] = points;
+      trees_[k] = std::make_unique<const TriangleTree>(turned_[k], mesh.faces);
+      inside_[k] = std::make_unique<const PointInMesh>(*trees_[k]);
+      points << turned_[k].rightCols(2), turned_[k].col(0);
+    }
+  }
+
+  bool contains(Vec3 p) const {
+    int votes = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      votes += inside_[k]->contains(p) ? 1 : 0;
+      p = Vec3(p.y(), p.z(), p.x());
+    }
+    return votes > 1;
+  }
+
+private:
+  Points turned_[3]; ///< the axes in another order
+  std::unique_ptr<const TriangleTree> trees_[3];
+  std::unique_ptr<const PointInMesh> inside_[3];
+};
+
+/// Whether much of the patch's area has the inside in front of it.
+bool facesInward(const TriangleMesh& mesh, std::vector<int> patch, const InsideOfMost& inside,
                  double step) {
   // The largest faces tell most.
   constexpr std::size_t kMostFaces = 15;
@@ -111,6 +140,7 @@ bool facesInward(const TriangleMesh& mesh, std::vector<int> patch, const PointIn
   std::stable_sort(patch.begin(), patch.end(), [&](int f, int g) { return area(f) > area(g); });
   patch.resize(std::min(patch.size(), kMostFaces));
   double votes = 0.0;
+  double all = 0.0;
   for (const int f : patch) {
     const Vec3 normal = areaNormal(mesh.vertices, mesh.faces, f).stableNormalized();
     const Vec3 middle = (mesh.vertices.row(mesh.faces(f, 0)) + mesh.vertices.row(mesh.faces(f, 1)) +
@@ -120,8 +150,10 @@ bool facesInward(const TriangleMesh& mesh, std::vector<int> patch, const PointIn
     const bool before = inside.contains(middle + step * normal);
     const bool behind = inside.contains(middle - step * normal);
     if (before != behind) votes += before ? area(f) : -area(f);
+    all += area(f);
   }
-  return votes > 0.0;
+  constexpr double kMuch = 0.3;
+  return votes > kMuch * all;
 }
 
 } // namespace
@@ -138,8 +170,7 @@ MendedMesh orientedShells(const TriangleMesh& input, const MendingTask& /*task*/
     if (patches.isTurned[at(f)] != 0) turn(static_cast<int>(f));
   }
   const TriangleMesh before = mesh;
-  const TriangleTree tree(before.vertices, before.faces);
-  const PointInMesh inside(tree);
+  const InsideOfMost inside(before);
   const double step = 10.0 * placeTolerance(mesh.vertices);
   for (const std::vector<int>& patch : patches.faces) {
     const bool isConcerned = std::any_of(patch.begin(), patch.end(), [&](int f) {

@@ -71,9 +71,14 @@ TriangleMesh outward(const TriangleMesh& mesh, const std::vector<int>& crossing)
   return result;
 }
 
-/// Whether the material ends at the patch: told in the middle of its roundest large face.
-bool isBoundary(const TriangleMesh& mesh, const std::vector<int>& patch,
-                const WindingNumber& winding) {
+/// Whether the material ends at a patch, and whether that is certain.
+struct PatchSide {
+  bool isBoundary, isCertain;
+};
+
+/// Told in the middle of the patch's roundest large face.
+PatchSide sideOf(const TriangleMesh& mesh, const std::vector<int>& patch,
+                 const WindingNumber& winding) {
   double widest = -1.0;
   int best = patch.front();
   for (const int f : patch) {
@@ -93,14 +98,15 @@ bool isBoundary(const TriangleMesh& mesh, const std::vector<int>& patch,
   Vec3 middle = Vec3::Zero();
   for (const int v : mesh.faces.row(best)) middle += mesh.vertices.row(v).transpose() / 3.0;
   constexpr double kBeside = 0.01;
-  return winding.at(middle + kBeside * widest * normal) < 0.5 &&
-         winding.at(middle - kBeside * widest * normal) >= 0.5;
+  const bool isBoundary = winding.at(middle + kBeside * widest * normal) < 0.5 &&
+                          winding.at(middle - kBeside * widest * normal) >= 0.5;
+  return {isBoundary, widest > placeTolerance(mesh.vertices)};
 }
 
-/// Turns the choice of single patches over, as long as fewer edges are left with more faces along
-/// than against them: where a patch is next to nothing it cannot be told what is beside it.
+/// Turns the choice of narrow patches over, as long as fewer edges are left with more faces along
+/// than against them: what is beside them cannot be told for certain.
 void balance(const Faces& faces, const std::vector<std::vector<int>>& patches,
-             std::vector<char>& isKept) {
+             const std::vector<char>& isCertain, std::vector<char>& isKept) {
   using Edge = std::pair<int, int>;
   std::vector<std::map<Edge, int>> borders(patches.size()); // how many more run along than against
   std::map<Edge, int> sum;                                  // of those that are kept
@@ -122,6 +128,7 @@ void balance(const Faces& faces, const std::vector<std::vector<int>>& patches,
   for (int round = 0; isChanged && round < kRounds; ++round) {
     isChanged = false;
     for (std::size_t p = 0; p < patches.size(); ++p) {
+      if (isCertain[p] != 0) continue;
       const int sign = isKept[p] != 0 ? -1 : 1;
       int gain = 0;
       for (const auto& [edge, along] : borders[p]) {
@@ -183,11 +190,13 @@ MendedMesh united(const TriangleMesh& input, const std::vector<int>& crossing,
   const WindingNumber winding(bodies.vertices, bodies.faces);
   const std::vector<std::vector<int>> patches = manifoldPatches(pieces.faces);
   std::vector<char> isKept;
-  isKept.reserve(patches.size());
+  std::vector<char> isCertain;
   for (const std::vector<int>& patch : patches) {
-    isKept.push_back(isBoundary(pieces, patch, winding) ? 1 : 0);
+    const PatchSide side = sideOf(pieces, patch, winding);
+    isKept.push_back(side.isBoundary ? 1 : 0);
+    isCertain.push_back(side.isCertain ? 1 : 0);
   }
-  balance(pieces.faces, patches, isKept);
+  balance(pieces.faces, patches, isCertain, isKept);
   Faces kept(pieces.faces.rows(), 3);
   Eigen::Index rows = 0;
   for (std::size_t p = 0; p < patches.size(); ++p) {

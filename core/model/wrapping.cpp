@@ -75,7 +75,8 @@ double radiusOfHoles(const TriangleMesh& mesh, const TriangleTree& surface, doub
     // Across the middle one of the border's three directions it is as narrow as a ball sees it.
     const Eigen::SelfAdjointEigenSolver<Mat3> axes(Mat3(centred.transpose() * centred));
     const Vector along = centred * axes.eigenvectors().col(1);
-    radius = std::max(radius, 0.5 * (along.maxCoeff() - along.minCoeff()));
+    constexpr double kCorners = 1.5; // a ball that just fits gets into a square's corners
+    radius = std::max(radius, 0.5 * kCorners * (along.maxCoeff() - along.minCoeff()));
   }
   return radius;
 }

@@ -8,6 +8,7 @@
 #include "core/model/closed_holes.h"
 #include "core/model/empty_shells.h"
 #include "core/model/local_crossings.h"
+#include "core/model/loose_sheets.h"
 #include "core/model/manifold_split.h"
 #include "core/model/seams.h"
 #include "core/model/shell_orientation.h"
@@ -161,6 +162,53 @@ TEST(SplitToManifold, PartsTwoBodiesThatShareAVertex) {
   EXPECT_NEAR(volume(result.mesh), 2.0, 1e-3);
 }
 
+TEST(SplitToManifold, PartsBodiesThatMeetAtManyEdges) {
+  // Every second cube of eight: each touches the other three along edges, and all in the middle.
+  const TriangleMesh one = box({1, 1, 1});
+  const TriangleMesh four =
+      withMergedPlaces(joined(joined(one, shifted(one, {1, 1, 0})),
+                              joined(shifted(one, {1, 0, 1}), shifted(one, {0, 1, 1}))));
+  const MendedMesh result = splitToManifold(four, taskFor(four));
+  expectClosed(result.mesh);
+  EXPECT_EQ(connectedComponents(result.mesh.vertices.rows(), result.mesh.faces).size(), 4U);
+  EXPECT_NEAR(volume(result.mesh), 4.0, 1e-3);
+}
+
+/// Two cubes with one wall between them.
+TriangleMesh withAWall() {
+  const TriangleMesh left = shifted(box({1, 1, 1}, 2), {-0.5, 0, 0});
+  const TriangleMesh right = shifted(box({1, 1, 1}, 2), {0.5, 0, 0});
+  const auto isWall = [](const Vec3& p) { return p.x() < 1e-9; };
+  return withMergedPlaces(joined(left, withoutFaces(right, isWall)));
+}
+
+TEST(LooseSheets, AreLeftOutWithinABody) {
+  const TriangleMesh model = withAWall();
+  ASSERT_GT(countEdges(model.vertices.rows(), model.faces).nonManifold, 0U);
+  const MendedMesh result = withoutLooseSheets(model, taskFor(model));
+  EXPECT_TRUE(isClosedAndOriented(result.mesh));
+  EXPECT_NEAR(volume(result.mesh), 2.0, 1e-12);
+  EXPECT_EQ(result.done, "1 sheet that bound no material left out");
+}
+
+TEST(LooseSheets, AreLeftOutOutsideOfIt) {
+  const TriangleMesh body = box({1, 1, 1}, 2);
+  TriangleMesh fin{Points(3, 3), Faces(1, 3)};
+  fin.vertices << 0.5, 0.5, 0.0, 0.5, 0.5, 0.5, 0.9, 0.9, 0.2;
+  fin.faces << 0, 1, 2;
+  const TriangleMesh model = withMergedPlaces(joined(body, fin));
+  ASSERT_EQ(countEdges(model.vertices.rows(), model.faces).nonManifold, 1U);
+  const MendedMesh result = withoutLooseSheets(model, taskFor(model));
+  EXPECT_TRUE(isClosedAndOriented(result.mesh));
+  EXPECT_NEAR(volume(result.mesh), 1.0, 1e-12);
+}
+
+TEST(LooseSheets, AreNoBodiesThatTouch) {
+  const TriangleMesh one = box({1, 1, 1}, 2);
+  const TriangleMesh touching = withMergedPlaces(joined(one, shifted(one, {1, 1, 0})));
+  EXPECT_TRUE(withoutLooseSheets(touching, taskFor(touching)).done.empty());
+}
+
 TEST(ClosedHoles, FollowsTheSurfaceAroundASmallHole) {
   const TriangleMesh ball = sphere(16);
   const TriangleMesh open = withoutFaces(ball, [](const Vec3& p) { return p.x() > 0.96; });
@@ -192,6 +240,16 @@ TEST(ClosedHoles, RefusesAVase) {
   }
 }
 
+TEST(ClosedOpenings, CloseAVaseAsWell) {
+  const TriangleMesh ball = sphere(10);
+  const TriangleMesh vase = withoutFaces(ball, [](const Vec3& p) { return p.z() > 0.2; });
+  const MendedMesh result = closedOpenings(vase, taskFor(vase));
+  expectClosed(result.mesh);
+  // Between the flat lid and the whole ball.
+  EXPECT_GT(volume(result.mesh), 0.5 * volume(ball));
+  EXPECT_LT(volume(result.mesh), 1.05 * volume(ball));
+}
+
 TEST(LocalCrossings, ReplacesAFoldedPlace) {
   const TriangleMesh ball = sphere(12);
   TriangleMesh folded = ball;
@@ -221,6 +279,17 @@ TEST(EmptyShells, GoAndLeaveTheBodies) {
 double volumeOfTwoBalls(double d) {
   const double pi = std::acos(-1.0);
   return 8.0 / 3.0 * pi - pi * (4.0 + d) * (2.0 - d) * (2.0 - d) / 12.0;
+}
+
+TEST(EmptyShells, MayBeOpenWhereTheyAreLittle) {
+  const TriangleMesh body = box({2, 2, 2}, 3);
+  const TriangleMesh leaf =
+      withoutFaces(box({0.3, 0.3, 0.3}), [](const Vec3& p) { return p.z() < 0.149; });
+  const MendedMesh result =
+      withoutEmptyShells(joined(body, shifted(leaf, {0, 0, 2})), taskFor(body));
+  EXPECT_EQ(result.mesh.faces.rows(), body.faces.rows());
+  const MendedMesh sheet = withoutEmptyShells(joined(body, scaled(leaf, 10.0)), taskFor(body));
+  EXPECT_TRUE(sheet.done.empty());
 }
 
 TEST(UnitedBodies, HaveTheVolumeOfTheUnion) {
@@ -300,6 +369,21 @@ TEST(Wrapped, KeepsTheVolumeOfASoup) {
   EXPECT_NE(result.done.find("wrapped, volume "), std::string::npos);
 }
 
+TEST(Wrapped, TakesABallThatFollowsFromTheHoles) {
+  // One that a fine ball would get through.
+  const TriangleMesh body = box({2, 2, 2}, 16);
+  const TriangleMesh open = withoutFaces(body, [](const Vec3& p) {
+    return p.z() > 0.999 && std::max(std::abs(p.x()), std::abs(p.y())) < 0.125;
+  });
+  const MendedMesh coarse = wrapped(open, taskFor(body));
+  expectClosed(coarse.mesh);
+  EXPECT_NEAR(volume(coarse.mesh), 8.0, 0.03 * 8.0);
+  // Without a hole the ball is fine, and so is what comes of it.
+  const MendedMesh fine = wrapped(body, taskFor(body));
+  expectClosed(fine.mesh);
+  EXPECT_GT(fine.mesh.faces.rows(), 4 * coarse.mesh.faces.rows());
+}
+
 TEST(Wrapped, SaysWhereTheModelIsAnother) {
   // A slot that no ball gets into takes 9 % of the box.
   TriangleMesh slotted =
@@ -335,6 +419,21 @@ TEST(Mending, KeepsTheOpeningsOfAShell) {
   ASSERT_TRUE(result);
   EXPECT_EQ(result->repairs().mended, "1 face turned over");
   EXPECT_EQ(std::count(result->isLid().begin(), result->isLid().end(), 0), vase.faces.rows());
+}
+
+TEST(Mending, ClosesAnOpeningWhereNoShellCanBeMade) {
+  // A rod stands out of the bowl.
+  const TriangleMesh ball = sphere(10);
+  const TriangleMesh bowl = withoutFaces(ball, [](const Vec3& p) { return p.z() > 0.5; });
+  const TriangleMesh rod = shifted(box({0.2, 0.2, 1.6}, 2), {0, 0, 0.4});
+  const std::optional<Solid> result = mended(joined(bowl, rod), taskFor(ball));
+  ASSERT_TRUE(result);
+  EXPECT_NE(result->repairs().warning.find("opening"), std::string::npos);
+  const TriangleMesh body{result->vertices(), result->faces()};
+  EXPECT_EQ(intersectingPairs(body), 0U);
+  EXPECT_EQ(connectedComponents(body.vertices.rows(), body.faces).size(), 1U);
+  // As a bowl it would be refused.
+  EXPECT_THROW(mended(bowl, taskFor(ball)), InvalidInput);
 }
 
 /// Stands as a hollow body only; a hole in its side.
