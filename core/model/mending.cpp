@@ -10,10 +10,11 @@
 #include "core/model/shell_orientation.h"
 #include "core/model/united_bodies.h"
 #include "core/model/wrapping.h"
+#include "core/query/self_intersection.h"
 #include "core/query/winding_volume.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,9 +28,10 @@ using Way = std::vector<MendingStep>;
 const Way kToManifold = {joinedSeams, orientedShells, withoutLooseSheets, splitToManifold};
 /// From there to a solid, after its holes are closed.
 const Way kToSolid = {withoutLocalCrossings, withoutEmptyShells};
-/// What a union leaves is rounded to what the caller can store, and may have slivers that cross:
-/// the same again.
-const Way kUnion = {unitedBodies, joinedSeams, withoutLocalCrossings, withoutEmptyShells};
+/// What a union leaves is rounded to what the caller can store, and may have slivers that cross, or
+/// gaps where they could not be told: the same again.
+const Way kUnion = {unitedBodies,    joinedSeams,    orientedShells,        withoutLooseSheets,
+                    splitToManifold, closedOpenings, withoutLocalCrossings, withoutEmptyShells};
 constexpr int kMostUnions = 6;
 
 /// Does the steps and writes down what they did. Returns whether they did anything.
@@ -68,11 +70,14 @@ bool isVase(const RepairedMesh& manifold, MendingTask task) {
   }
 }
 
-/// Whether it is about as large as what the triangles enclose.
+/// Whether no body is lacking and nothing hollow is filled, judged by what the triangles enclose,
+/// which is not certain where bodies face inwards.
 bool hasVolumeOf(const TriangleMesh& mesh, const Solid& solid) {
-  constexpr double kMost = 0.1;
+  constexpr double kLeast = 0.75;
+  constexpr double kMost = 1.5;
   const WindingVolume volumes = windingVolumes(mesh, {solid.vertices(), solid.faces()});
-  return std::abs(volumes.otherVolume - volumes.volume) <= kMost * volumes.volume;
+  return volumes.otherVolume >= kLeast * volumes.volume &&
+         volumes.otherVolume <= kMost * volumes.volume;
 }
 
 /// `closing`: the step that closes what is open.
@@ -84,10 +89,15 @@ std::optional<Solid> solidFrom(RepairedMesh manifold, MendingStep closing,
   std::optional<Solid> solid = solidOf(model, task);
   const TriangleMesh bodies = solid ? TriangleMesh{} : model.mesh;
   bool isUnion = false;
+  std::size_t crossings = std::numeric_limits<std::size_t>::max();
   for (int round = 0; !solid && round < kMostUnions; ++round) {
     if (!take(kUnion, task, model)) break;
     isUnion = true;
     solid = solidOf(model, task);
+    if (solid) break;
+    const std::size_t before = std::exchange(
+        crossings, selfIntersectingFaces(model.mesh.vertices, model.mesh.faces).size());
+    if (crossings >= before) break;
   }
   // What came of a union may lack a body.
   if (solid && isUnion && !hasVolumeOf(bodies, *solid)) solid.reset();

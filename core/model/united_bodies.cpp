@@ -204,7 +204,7 @@ MendedMesh united(const TriangleMesh& input, const std::vector<int>& crossing,
     for (const int f : patches[p]) kept.row(rows++) = pieces.faces.row(f);
   }
   kept.conservativeResize(rows, 3);
-  if (rows == 0 || !isBalanced(kept)) return {input};
+  if (rows == 0) return {input};
   MendedMesh result = splitToManifold(submesh(pieces.vertices, kept).mesh, task);
   result.done = counted(crossing.size(), "crossing face", "crossing faces") + " united";
   return result;
