@@ -89,15 +89,17 @@ std::optional<Solid> solidFrom(RepairedMesh manifold, MendingStep closing,
   std::optional<Solid> solid = solidOf(model, task);
   const TriangleMesh bodies = solid ? TriangleMesh{} : model.mesh;
   bool isUnion = false;
-  std::size_t crossings = std::numeric_limits<std::size_t>::max();
-  for (int round = 0; !solid && round < kMostUnions; ++round) {
+  std::size_t fewest = std::numeric_limits<std::size_t>::max();
+  int inVain = 0;
+  for (int round = 0; !solid && round < kMostUnions && inVain < 2; ++round) {
     if (!take(kUnion, task, model)) break;
     isUnion = true;
     solid = solidOf(model, task);
     if (solid) break;
-    const std::size_t before = std::exchange(
-        crossings, selfIntersectingFaces(model.mesh.vertices, model.mesh.faces).size());
-    if (crossings >= before) break;
+    const std::size_t crossings =
+        selfIntersectingFaces(model.mesh.vertices, model.mesh.faces).size();
+    inVain = crossings < fewest ? 0 : inVain + 1;
+    fewest = std::min(fewest, crossings);
   }
   // What came of a union may lack a body.
   if (solid && isUnion && !hasVolumeOf(bodies, *solid)) solid.reset();

@@ -2,6 +2,7 @@
 
 #include "core/base/triangle.h"
 #include "core/mesh/components.h"
+#include "core/mesh/connectivity.h"
 #include "core/mesh/patches.h"
 #include "core/mesh/signed_volume.h"
 #include "core/model/crossing_refinement.h"
@@ -98,9 +99,12 @@ PatchSide sideOf(const TriangleMesh& mesh, const std::vector<int>& patch,
   Vec3 middle = Vec3::Zero();
   for (const int v : mesh.faces.row(best)) middle += mesh.vertices.row(v).transpose() / 3.0;
   constexpr double kBeside = 0.01;
-  const bool isBoundary = winding.at(middle + kBeside * widest * normal) < 0.5 &&
-                          winding.at(middle - kBeside * widest * normal) >= 0.5;
-  return {isBoundary, widest > placeTolerance(mesh.vertices)};
+  const double before = winding.at(middle + kBeside * widest * normal);
+  const double behind = winding.at(middle - kBeside * widest * normal);
+  constexpr double kFarFromAHalf = 0.3; // whole numbers, but near other surfaces
+  const bool isClear =
+      std::abs(before - 0.5) > kFarFromAHalf && std::abs(behind - 0.5) > kFarFromAHalf;
+  return {before < 0.5 && behind >= 0.5, isClear && widest > placeTolerance(mesh.vertices)};
 }
 
 /// Turns the choice of narrow patches over, as long as fewer edges are left with more faces along
@@ -210,9 +214,11 @@ MendedMesh united(const TriangleMesh& input, const std::vector<int>& crossing,
   return result;
 }
 
-std::size_t crossingsOf(const MendedMesh& result, const MendingTask& task) {
+/// Faces that cross others, and edges that are open.
+std::size_t faultsOf(const MendedMesh& result, const MendingTask& task) {
   const Points stored = task.representable(result.mesh.vertices);
-  return selfIntersectingFaces(stored, result.mesh.faces).size();
+  return selfIntersectingFaces(stored, result.mesh.faces).size() +
+         countEdges(stored.rows(), result.mesh.faces).boundary;
 }
 
 /// Every component a little larger, each by another share, so that sides that lie in one plane but
@@ -246,12 +252,12 @@ MendedMesh unitedBodies(const TriangleMesh& input, const MendingTask& task) {
   if (crossing.size() > kMostCrossings) return {input};
   if (!crossing.empty()) {
     result = united(input, crossing, task);
-    if (crossingsOf(result, task) > 0) {
+    if (faultsOf(result, task) > 0) {
       TriangleMesh larger = grown(input);
       const double moved = (larger.vertices - input.vertices).rowwise().norm().maxCoeff();
       larger.vertices = task.representable(larger.vertices);
       MendedMesh other = united(larger, selfIntersectingFaces(larger.vertices, larger.faces), task);
-      if (!other.done.empty() && crossingsOf(other, task) < crossingsOf(result, task)) {
+      if (!other.done.empty() && faultsOf(other, task) < faultsOf(result, task)) {
         result = std::move(other);
         result.distance = std::max(result.distance, moved);
       }
