@@ -27,8 +27,10 @@ std::size_t at(Eigen::Index i) {
   return static_cast<std::size_t>(i);
 }
 
-/// More are a soup, and take long.
-constexpr std::size_t kMostCrossings = 40000;
+/// More are a soup, and take long: some milliseconds each.
+constexpr std::size_t kMostCrossings = 12000;
+/// That are worth a second attempt.
+constexpr std::size_t kFewCrossings = 3000;
 
 /// Whether as many faces run along every edge as against it.
 bool isBalanced(const Faces& faces) {
@@ -252,7 +254,7 @@ MendedMesh unitedBodies(const TriangleMesh& input, const MendingTask& task) {
   if (crossing.size() > kMostCrossings) return {input};
   if (!crossing.empty()) {
     result = united(input, crossing, task);
-    if (faultsOf(result, task) > 0) {
+    if (crossing.size() <= kFewCrossings && faultsOf(result, task) > 0) {
       TriangleMesh larger = grown(input);
       const double moved = (larger.vertices - input.vertices).rowwise().norm().maxCoeff();
       larger.vertices = task.representable(larger.vertices);
