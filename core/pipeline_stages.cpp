@@ -155,8 +155,8 @@ double gapOf(double measure, const Search& found) {
 }
 
 /// The measure that no offset surface exceeds, if it is certain that this is far from what is
-/// possible: none of them takes more volume than that with the least offsets, along whatever
-/// directions. Empty: one may come near, or nothing is known.
+/// possible: none of them takes more than a certain volume, along whatever directions. Empty: one
+/// may come near, or nothing is known.
 std::optional<double> measureOfDeepest(const Preparation& model, const Foundation& foundation,
                                        const Options& options, const Search& found) {
   const Weights& weights = options.weights;
@@ -164,16 +164,15 @@ std::optional<double> measureOfDeepest(const Preparation& model, const Foundatio
       !foundation.possible || !foundation.possible->bound.measure || weights.smoothness > 0.0) {
     return std::nullopt;
   }
-  constexpr double kMore = 1.1; // folds that an offset smooths out take volume
   std::optional<double> most;
   for (const double clearance : {kSlantedClearance, kSteepClearance}) {
     const double volume =
         clearance == kSlantedClearance
-            ? deepestVolume(found.task)
-            : deepestVolume(taskAlong(clearance, *model.goal, model, foundation, options));
+            ? greatestVolume(found.task)
+            : greatestVolume(taskAlong(clearance, *model.goal, model, foundation, options));
     const std::optional<double> measure =
         greatestMeasure(*model.goal, foundation.possible->bound, model.solidMoments,
-                        found.task.model.fillings, foundation.possible->cells, kMore * volume);
+                        found.task.model.fillings, foundation.possible->cells, volume);
     if (!measure || !(gapOf(*measure, found) > kFar)) return std::nullopt;
     most = std::max(most.value_or(*measure), *measure);
   }

@@ -1,9 +1,9 @@
 #include "core/best/polish.h"
 
-#include "core/reduced/displacement.h"
 #include "core/contour/region.h"
 #include "core/contour/shape_guard.h"
 #include "core/optimum/layered_quadric.h"
+#include "core/reduced/displacement.h"
 
 #include <utility>
 #include <vector>

@@ -69,12 +69,13 @@ std::optional<double> greatestMeasure(const Goal& goal, const OptimalBound& boun
   if (conditions.empty() && bound.levels.empty()) {
     // A mass, which the volume says all about.
     const double most = std::min(volume, cells.col(0).sum());
-    return std::max(*goal.measure(solid), *goal.measure(solid - perVolume * most * Moments::Unit(0)));
+    return std::max(*goal.measure(solid),
+                    *goal.measure(solid - perVolume * most * Moments::Unit(0)));
   }
   if (conditions.size() != 1 || bound.levels.size() != 1) return std::nullopt;
   const LevelBound& best = bound.levels.front();
-  const double level = greatestLevel(conditions.front(), best.multipliers.col(0), solid, perVolume,
-                                     cells, volume);
+  const double level =
+      greatestLevel(conditions.front(), best.multipliers.col(0), solid, perVolume, cells, volume);
   const Moments& most = best.states.front();
   if (level >= levelReached(conditions.front(), most)) return goal.measure(most);
   if (level <= levelReached(conditions.front(), solid)) return goal.measure(solid);

@@ -491,9 +491,10 @@ CavityResult searchCavity(const CavityTask& task, const std::function<void(doubl
   return *outerAlone;
 }
 
-double deepestVolume(const CavityTask& task) {
+double greatestVolume(const CavityTask& task) {
+  constexpr double kMore = 1.25;
   const std::function<void(double)> silent;
-  return CavitySearch(task, 0.0, silent).deepestVolume();
+  return kMore * CavitySearch(task, 0.0, silent).deepestVolume();
 }
 
 bool leavesRoom(const CavityTask& task) {

@@ -80,9 +80,10 @@ Moments outerMoments(const CavityTask& task, const CavityResult& result);
 /// empty.
 CavityResult searchCavity(const CavityTask& task, const std::function<void(double)>& progress);
 
-/// Volume of the cavity with the least offsets, but for what has no room between its bounds, not
-/// inspected: those of a search lie within it. \pre the outer surface rests and is closed
-double deepestVolume(const CavityTask& task);
+/// Volume that no cavity of a search exceeds, nor one with smooth caps (smooth_caps.h): a quarter
+/// more than that with the least offsets, but for what has no room between its bounds, for folds
+/// of it count less than once. \pre the outer surface rests and is closed
+double greatestVolume(const CavityTask& task);
 
 /// Whether a cavity with the least offsets passes inspection, without optimising anything. Where
 /// it does, `searchCavity` finds one, too.

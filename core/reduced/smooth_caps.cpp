@@ -99,6 +99,7 @@ private:
   CavityResult resultOf(const Capped& capped) const;
   bool keepsConstraints(const CavityResult& result) const;
   bool press(const Skin& skin, const Marks& atWall, CavityResult& result) const;
+  bool keepsVolume(const CavityResult& result) const;
   bool isWorthIt(const CavityResult& result) const;
   bool giveUp(const CavityResult& result, const std::vector<int>& end);
 
@@ -295,7 +296,16 @@ bool Capping::press(const Skin& skin, const Marks& atWall, CavityResult& result)
   return done.evaluations > 0 && done.violation <= kFeasibility;
 }
 
+/// As `greatestVolume` has it.
+bool Capping::keepsVolume(const CavityResult& result) const {
+  if (task_.model.outer) return true;
+  const double volume = signedVolume(result.inner, result.cavity.faces);
+  return volume <= signedVolume(found_.inner, found_.cavity.faces) ||
+         volume <= greatestVolume(task_);
+}
+
 bool Capping::isWorthIt(const CavityResult& result) const {
+  if (!keepsVolume(result)) return false;
   const Body solid = inputBody(task_);
   const Body before = hollowBody(task_, found_);
   const Body after = hollowBody(task_, result);

@@ -9,7 +9,8 @@ namespace massprops {
 /// run to the skeleton there go, and so do specks that hang on them alone. In their place come
 /// skins under tension, as stiff as serves the goal best; then the offsets are adjusted until the
 /// constraints hold again. An end whose cap does not pass inspection stays as it was, and all do
-/// where the goal would be served noticeably worse. \pre the cavity passed inspection
+/// where the goal would be served noticeably worse or `greatestVolume` be exceeded. \pre the cavity
+/// passed inspection
 CavityResult withSmoothCaps(const CavityTask& task, const CavityResult& found);
 
 } // namespace massprops
