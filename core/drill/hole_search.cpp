@@ -79,8 +79,9 @@ std::vector<Entry> entriesOf(const Workpiece& piece, const Pool& pool, const Vec
     for (int i = 0; i < n; ++i) {
       for (int j = 0; j < 2 * (n - i) - 1; ++j) {
         const double third = j % 2 == 0 ? 1.0 / 3.0 : 2.0 / 3.0;
+        const int column = j / 2;
         const double s = (i + third) / n;
-        const double t = (j / 2 + third) / n;
+        const double t = (column + third) / n;
         const Vec3 p = a + s * (b - a) + t * (c - a);
         if (p.dot(up) <= pool.level) entries.push_back({p, normal.normalized(), p.dot(up)});
       }
@@ -148,6 +149,7 @@ Choice bestOf(const Workpiece& piece, const std::vector<Entry>& entries, const V
 std::vector<Outlet> outletsOf(const std::vector<DrillSite>& sites, const Workpiece& piece,
                               const Vec3& up) {
   std::vector<Outlet> outlets;
+  outlets.reserve(sites.size());
   for (const DrillSite& site : sites) outlets.push_back(outletAt(site, piece.cavity, up));
   return outlets;
 }
