@@ -9,9 +9,13 @@ endif()
 set(_static ${PROJECT_SOURCE_DIR}/build/static-libraries)
 execute_process(COMMAND ${PROJECT_SOURCE_DIR}/scripts/build_static_libraries.sh ${_static}
                 COMMAND_ERROR_IS_FATAL ANY)
-# The variables that CGAL finds them by; the headers are those of the system.
+# The variables that CGAL finds them by; the headers are those of the system. It looks for GMP itself
+# again as long as it does not know the headers, and keeps what it found by two names.
 foreach(library IN ITEMS gmp gmpxx mpfr)
-  string(TOUPPER ${library}_LIBRARIES _variable)
-  set(${_variable} ${_static}/lib/lib${library}.a CACHE FILEPATH "" FORCE)
+  string(TOUPPER ${library} _name)
+  set(${_name}_LIBRARIES ${_static}/lib/lib${library}.a CACHE FILEPATH "" FORCE)
+endforeach()
+foreach(kind IN ITEMS RELEASE DEBUG)
+  set(GMP_LIBRARY_${kind} ${_static}/lib/libgmp.a CACHE FILEPATH "" FORCE)
 endforeach()
 set(MASSPROPS_STATIC_NLOPT ${_static}/lib/libnlopt.a)
