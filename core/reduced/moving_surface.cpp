@@ -24,7 +24,7 @@ constexpr DecimationTarget kMoving{12000, 3000, 1.5e-4};
 
 /// Skeleton and basis are smooth: their carrier leads to cavities as good as the whole surface does
 /// (benchmarks/results.md).
-constexpr DecimationTarget kCarrier{2400, 600, 3e-4};
+constexpr DecimationTarget kCarrier{4800, 1200, 1.5e-4};
 
 /// A function of the basis needs a few vertices to have a shape.
 DecimationTarget carrying(int basisSize, const DecimationTarget& wanted) {

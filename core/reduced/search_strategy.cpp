@@ -14,7 +14,7 @@ namespace massprops {
 namespace {
 
 /// Above this gap another search, with other directions, is worth its time.
-constexpr double kFarFromBound = 0.035;
+constexpr double kFarFromBound = 0.02;
 
 /// A shell is asked for whatever a solid body could do.
 bool isUseless(const CavityTask& task, const CavityResult& cavity) {
@@ -42,12 +42,13 @@ CavityResult bestOfSearches(const CavityTask& task, const Redirected& steeper,
     best = searchCavity(plain, progress);
     effort += best.effort;
   }
+  best = withSmoothCaps(task, best);
   if (isFarFromBound(task, best)) {
     CavityTask redirected = steeper();
     redirected.model.fillings = task.model.fillings;
-    CavityResult steep = searchCavity(redirected, progress);
+    const CavityResult steep = withSmoothCaps(redirected, searchCavity(redirected, progress));
     effort += steep.effort;
-    if (servesBetter(task, steep, best)) best = std::move(steep);
+    if (servesBetter(task, steep, best)) best = steep;
   }
   best.effort = effort;
   return best;
@@ -106,7 +107,7 @@ CavityResult bestCavity(CavityTask& task, const Redirected& steeper,
   }
   if (isUseless(task, best)) best.status = CavityStatus::NoGain;
   best.effort = effort;
-  return withSmoothCaps(task, best);
+  return best;
 }
 
 double greatestWall(double tooThick, const std::function<bool(double)>& hasRoom,
