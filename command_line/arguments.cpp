@@ -44,7 +44,7 @@ std::string placeholderOf(const Parameter& parameter) {
 }
 
 std::string defaultOf(const Parameter& parameter) {
-  const std::string number = toString(
+  std::string number = toString(
       std::visit([](const auto& value) -> ReportValue { return value; }, parameter.standard));
   switch (parameter.kind) {
   case ParameterKind::Choice:

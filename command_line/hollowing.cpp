@@ -140,6 +140,11 @@ void writeResult(const Result& result, const TriangleMesh& model, const Outputs&
   }
 }
 
+std::string isTaken(const std::string& file, const std::string& model, const std::string& other) {
+  return "'" + file + "' would be written for '" + model + "', but is taken by '" + other +
+         "': give each file a name of its own; {name} in it stands for the model's.";
+}
+
 } // namespace
 
 Arguments argumentsFor(const Arguments& arguments, const std::string& model) {
@@ -168,30 +173,27 @@ void requireSensible(const Arguments& arguments) {
     for (const std::string& file : filesOf(own)) {
       const auto [other, isNew] = taken.try_emplace(place(file), model);
       if (isNew) continue;
-      throw InvalidInput("'" + file + "' would be written for '" + model + "', but is taken by '" +
-                         other->second +
-                         "': give each file a name of its own; {name} in it stands for the "
-                         "model's.");
+      throw InvalidInput(isTaken(file, model, other->second));
     }
   }
 }
 
-Outcome hollow(const std::string& model, const Arguments& all, const Progress& progress) {
-  Arguments arguments = argumentsFor(all, model);
+Outcome hollow(const std::string& model, const Arguments& arguments, const Progress& progress) {
+  Arguments own = argumentsFor(arguments, model);
   MeshFile file = readMesh(model);
   OutputFiles files;
   std::map<std::string, std::string> places;
-  for (const std::string& path : filesOf(arguments)) places[path] = files.add(path);
-  for (const auto& [parameter, path] : parameterFilesOf(arguments)) {
-    arguments.given[parameter] = places.at(path);
+  for (const std::string& path : filesOf(own)) places[path] = files.add(path);
+  for (const auto& [parameter, path] : parameterFilesOf(own)) {
+    own.given[parameter] = places.at(path);
   }
 
-  const Outputs& outputs = arguments.outputs;
+  const Outputs& outputs = own.outputs;
   bool inDoubles = true;
   for (const std::string& path : meshFilesOf(outputs)) inDoubles &= keepsDoubles(path);
   // What is checked and reported is what the files hold.
   if (!inDoubles) file.mesh.vertices = asFloats(file.mesh.vertices);
-  Options options = optionsFor(file, arguments);
+  Options options = optionsFor(file, own);
   if (!inDoubles) options.representable = asFloats;
 
   const Result result = optimizeMassProperties(file.mesh, options, progress);

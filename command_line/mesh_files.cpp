@@ -79,16 +79,18 @@ void write(const std::string& path, const TriangleMesh& mesh, Mesh& file, int ma
 MeshFile readMesh(const std::string& path) {
   requireKnownFormat(path);
   if (!std::ifstream(path)) throw InvalidInput("'" + path + "' cannot be opened.");
-  const InvalidInput unreadable("'" + path + "' cannot be read: it may be damaged.");
+  const auto requireReadable = [&](bool isReadable) {
+    if (!isReadable) throw InvalidInput("'" + path + "' cannot be read: it may be damaged.");
+  };
   if (suffixOf(path) == ".obj") {
     MeshFile file;
-    if (!readObj(path, file.mesh)) throw unreadable;
+    requireReadable(readObj(path, file.mesh));
     return file;
   }
-  if (suffixOf(path) == ".stl" && !isBinaryStl(path) && !endsALine(path)) throw unreadable;
+  requireReadable(suffixOf(path) != ".stl" || isBinaryStl(path) || endsALine(path));
   Mesh mesh;
   const int failure = io::Importer<Mesh>::Open(mesh, path.c_str());
-  if (io::Importer<Mesh>::ErrorCritical(failure)) throw unreadable;
+  requireReadable(!io::Importer<Mesh>::ErrorCritical(failure));
   if (suffixOf(path) == ".stl") vcg::tri::Clean<Mesh>::RemoveDuplicateVertex(mesh);
   return {fromVcg(mesh, Placement::Identity()), selectedFaces(mesh)};
 }

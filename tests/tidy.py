@@ -2,7 +2,7 @@
 
 Most of clang-tidy's time goes into headers of Eigen and CGAL, again for every source. Sources whose
 names at the outermost level differ are therefore joined into one; what is found there is reported
-where it stands. Sources that do not compile together are looked at one by one.
+where it stands. Sources that do not compile together are looked at in halves, and these in halves.
 """
 import json
 import pathlib
@@ -85,19 +85,25 @@ def run(tidy, flags, sources):
     return done.returncode == 0, said or ("" if done.returncode == 0 else done.stderr)
 
 
+def look_at(tidy, flags, sources):
+    """As `run`."""
+    print("Together:", *(source.relative_to(ROOT) for source in sources))
+    content, said = run(tidy, flags, sources)
+    if "clang-diagnostic-error" not in said or len(sources) == 1:
+        return content, said
+    clash = next(line for line in said.splitlines() if "clang-diagnostic-error" in line)
+    print("They do not compile together:", clash)
+    middle = len(sources) // 2
+    halves = [look_at(tidy, flags, half) for half in (sources[:middle], sources[middle:])]
+    return all(content for content, _ in halves), "".join(said for _, said in halves)
+
+
 def main(tidy, build, *sources):
     build = pathlib.Path(build)
     good = True
-    for unit in units(build, [pathlib.Path(source) for source in sources]):
-        together = unit["sources"]
-        flags = unit["flags"] or compiler_flags(build, together[0])
-        print("Together:", *(source.relative_to(ROOT) for source in together))
-        content, said = run(tidy, flags, together)
-        if "clang-diagnostic-error" in said and len(together) > 1:
-            clash = next(line for line in said.splitlines() if "clang-diagnostic-error" in line)
-            print("They do not compile together:", clash)
-            alone = [run(tidy, flags, [source]) for source in together]
-            content, said = all(c for c, _ in alone), "".join(s for _, s in alone)
+    for unit in units(build, [pathlib.Path(source).resolve() for source in sources]):
+        content, said = look_at(tidy, unit["flags"] or compiler_flags(build, unit["sources"][0]),
+                                unit["sources"])
         good = good and content
         print(said, end="", flush=True)
     return 0 if good else 1

@@ -45,7 +45,7 @@ Polished polish(const CavityTask& task, const LayeredQuadric& quadric, Moving mo
   const Points directions = directionsOf(region, moving, held, contour);
   const Moments outer = task.model.solidMoments + task.model.attached;
   Points vertices = contour.mesh.vertices;
-  const Displacement done =
+  const Displaced done =
       displace({task.goal, task.weights, task.model.fillings, outer, task.model.solidMoments[0],
                 contour.mesh.faces, directions, kFarthest * edge},
                vertices);

@@ -49,10 +49,10 @@ public:
     const TriangleTree& outer = moved_ ? *moved_ : task_.surface;
     CavityResult result = cavity_;
     const Points directions = directionsOf(outer, task_.wall, cavity_, held);
-    const Displacement done = displace(
-        {own_ ? *own_ : task_.goal, task_.weights, task_.model.fillings, outerMass_,
-         task_.model.solidMoments[0], cavity_.cavity.faces, directions, farthest * task_.wall},
-        result.inner);
+    const Displaced done = displace({own_ ? *own_ : task_.goal, task_.weights, task_.model.fillings,
+                                     outerMass_, task_.model.solidMoments[0], cavity_.cavity.faces,
+                                     directions, farthest * task_.wall},
+                                    result.inner);
     if (task_.deliverable) result.inner = task_.deliverable(result.inner);
     result.effort.evaluations += done.evaluations;
     result.effort.secondsOptimization += time.seconds();

@@ -35,7 +35,8 @@ Points untied(const Points& points) {
   std::minstd_rand random; // begins as always
   Points result = points;
   for (double& coordinate : result.reshaped<Eigen::RowMajor>())
-    coordinate += most * static_cast<double>(random()) / static_cast<double>(random.max());
+    coordinate +=
+        most * static_cast<double>(random()) / static_cast<double>(std::minstd_rand::max());
   return result;
 }
 

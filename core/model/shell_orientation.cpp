@@ -118,8 +118,8 @@ public:
 
   bool contains(Vec3 p) const {
     int votes = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      votes += inside_[k]->contains(p) ? 1 : 0;
+    for (const auto& turned : inside_) {
+      votes += turned->contains(p) ? 1 : 0;
       p = Vec3(p.y(), p.z(), p.x());
     }
     return votes > 1;

@@ -42,7 +42,7 @@ std::vector<double> heightsOf(const Fillings& fillings) {
 }
 
 /// A condition in a state.
-struct Place {
+struct ConditionInState {
   Eigen::Index condition = 0, state = 0;
 };
 
@@ -184,7 +184,7 @@ public:
   Mixture(Eigen::Index conditions, Eigen::Index states)
       : conditions_(conditions), states_(states) {}
 
-  void add(const Place& place) {
+  void add(const ConditionInState& place) {
     places_.push_back(place);
     if (places_.size() > 1) x_ /= x_.norm();
     x_.conservativeResize(x_.size() + 1);
@@ -192,7 +192,7 @@ public:
   }
 
   void leaveOut(Matrix& levels) const {
-    for (const Place& p : places_) {
+    for (const ConditionInState& p : places_) {
       levels(p.condition, p.state) = std::numeric_limits<double>::infinity();
     }
   }
@@ -208,7 +208,7 @@ public:
       const Relaxations::Solution s = relaxations.solve(multipliers(x));
       Vector slopes(x.size());
       for (Eigen::Index j = 0; j < x.size(); ++j) {
-        const Place& p = places_[static_cast<std::size_t>(j)];
+        const ConditionInState& p = places_[static_cast<std::size_t>(j)];
         slopes[j] = s.slopes(p.condition, p.state);
       }
       Evaluation e;
@@ -226,14 +226,14 @@ private:
   Matrix multipliers(const Vector& x) const {
     Matrix lambda = Matrix::Zero(conditions_, states_);
     for (Eigen::Index j = 0; j < x.size(); ++j) {
-      const Place& p = places_[static_cast<std::size_t>(j)];
+      const ConditionInState& p = places_[static_cast<std::size_t>(j)];
       lambda(p.condition, p.state) = x[j] * x[j] / x.squaredNorm();
     }
     return lambda;
   }
 
   Eigen::Index conditions_, states_;
-  std::vector<Place> places_;
+  std::vector<ConditionInState> places_;
   Vector x_;
 };
 
@@ -258,7 +258,7 @@ LevelBound greatestLevel(const LinearConditions& conditions, const Moments& soli
   constexpr int kMostConditions = 16;
   Relaxations relaxations(conditions, solid, fillings, cells);
   Mixture mixture(conditions.atZero.rows(), static_cast<Eigen::Index>(fillings.size()));
-  Place weakest;
+  ConditionInState weakest;
   levelsOf(conditions, relaxations.solidStates()).minCoeff(&weakest.condition, &weakest.state);
   for (int count = 1; count <= kMostConditions; ++count) {
     mixture.add(weakest);

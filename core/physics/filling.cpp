@@ -11,13 +11,13 @@ namespace massprops {
 namespace {
 
 /// Where a triangle is clipped: a point, and the values of its three hat functions there.
-struct Corner {
+struct ClippedCorner {
   Vec3 point;
   Vec3 hats;
 };
 
 struct Polygon {
-  std::array<Corner, 4> corners;
+  std::array<ClippedCorner, 4> corners;
   std::size_t size = 0;
 };
 
@@ -58,9 +58,9 @@ MomentsWithRates momentsBelowWithRates(const Points& vertices, const Faces& face
     const auto corner = [&](int k) { return Vec3(vertices.row(faces(f, k)).transpose()); };
     const Polygon below = clippedBelow({corner(0), corner(1), corner(2)}, level);
     for (std::size_t i = 2; i < below.size; ++i) {
-      const Corner& a = below.corners[0];
-      const Corner& b = below.corners[i - 1];
-      const Corner& c = below.corners[i];
+      const ClippedCorner& a = below.corners[0];
+      const ClippedCorner& b = below.corners[i - 1];
+      const ClippedCorner& c = below.corners[i];
       const Vec3 N = areaNormal(a.point, b.point, c.point);
       const Vec3 sum = a.point + b.point + c.point;
       for (int k = 0; k < 3; ++k) {

@@ -1,5 +1,6 @@
 #include "core/query/winding_number.h"
 
+#include "core/base/angles.h"
 #include "core/base/triangle.h"
 #include "core/query/triangle_tree.h"
 
@@ -8,8 +9,6 @@
 
 namespace massprops {
 namespace {
-
-const double kPi = std::acos(-1.0);
 
 /// Of the triangle seen from the origin, signed: positive from behind. [VOS83, Eq. 8]
 double solidAngle(const Vec3& a, const Vec3& b, const Vec3& c) {

@@ -52,7 +52,7 @@ Faces facesThat(bool move, const DisplacementTask& task) {
 
 } // namespace
 
-Displacement displace(const DisplacementTask& task, Points& vertices) {
+Displaced displace(const DisplacementTask& task, Points& vertices) {
   const Points start = vertices;
   const bool usesInertia = task.goal.usesInertia();
   constexpr double kUnit = 0.05; // of the farthest: what the solver's variables are 1 for

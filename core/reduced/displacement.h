@@ -20,7 +20,7 @@ struct DisplacementTask {
   RowMatrix functions = {};
 };
 
-struct Displacement {
+struct Displaced {
   int evaluations = 0;    ///< of the body
   double violation = 0.0; ///< largest of the goal's constraints; 0 where no vertex could move
 };
@@ -28,6 +28,6 @@ struct Displacement {
 /// Displaces `vertices` along the directions so that the goal's constraints hold and its objective
 /// is least.
 /// `vertices`: as they become; unchanged where none can move.
-Displacement displace(const DisplacementTask& task, Points& vertices);
+Displaced displace(const DisplacementTask& task, Points& vertices);
 
 } // namespace massprops

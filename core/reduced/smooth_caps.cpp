@@ -179,7 +179,7 @@ Capped Capping::opened() const {
     const int end = ends_.end[at(cap(0, 0))];
     const int first = static_cast<int>(n_) + static_cast<int>(added.size());
     for (const auto& position : divided.vertices.rowwise()) add(position, end);
-    parts.push_back(divided.faces.unaryExpr(
+    parts.emplace_back(divided.faces.unaryExpr(
         [&](int v) { return v < n_ ? v : first + v - static_cast<int>(n_); }));
     for (const int v : cap.reshaped()) {
       if (placeOf[at(v)] < n_) placeOf[at(v)] = add(found_.inner.row(v), end);
@@ -287,7 +287,7 @@ bool Capping::press(const Skin& skin, const Marks& atWall, CavityResult& result)
     if (v < n_) continue;
     pressures.row(v) = monomials(result.inner.row(v).transpose()).head(terms).transpose();
   }
-  const Displacement done =
+  const Displaced done =
       displace({movedGoal_ ? *movedGoal_ : task_.goal, task_.weights, task_.model.fillings,
                 outerMass_, task_.model.solidMoments[0], result.cavity.faces, directions,
                 kFarthest * task_.wall, skin.deflections(pressures)},
