@@ -83,7 +83,9 @@ TEST(PipelineDraining, KeepsEveryGoalOfTheSamplesWithPlugsAndWithout) {
     EXPECT_TRUE(truth(result, "solved")) << text(result, "message");
     EXPECT_LE(number(result, "max_constraint_violation"), 1e-6);
     EXPECT_GE(integer(result, "drain_holes"), 2);
-    EXPECT_LT(number(result, "largest_pool"), 2.0 * kToleratedPool);
+    // The keel of the duck's cavity is too narrow for a drill.
+    EXPECT_LT(number(result, "trapped_volume"),
+              -0.01 * signedVolume(result.inner.vertices, result.inner.faces));
     expectDrilled(model, result);
   }
 }

@@ -26,6 +26,9 @@ constexpr DecimationTarget kMoving{12000, 3000, 1.5e-4};
 /// (benchmarks/results.md).
 constexpr DecimationTarget kCarrier{4800, 1200, 1.5e-4};
 
+/// Even surfaces of so many vertices move as they are.
+constexpr Eigen::Index kEnough = 600;
+
 /// A function of the basis needs a few vertices to have a shape.
 DecimationTarget carrying(int basisSize, const DecimationTarget& wanted) {
   constexpr Eigen::Index kVerticesAFunction = 4;
@@ -50,7 +53,7 @@ std::optional<double> edgeToRefineTo(const PosedModel& posed, int basisSize) {
   const double longest = longestEdge(posed.vertices, posed.faces);
   const double edge = kLong * evenEdge(area, needed);
   const bool isEven = longest <= kUneven * evenEdge(area, n);
-  const bool isMany = n >= carrying(basisSize, kCarrier).least;
+  const bool isMany = n >= carrying(basisSize, {kEnough, kEnough, 0.0}).least;
   if (longest <= edge || (isEven && isMany)) return std::nullopt;
   return edge;
 }
