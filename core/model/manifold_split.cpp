@@ -45,11 +45,15 @@ std::vector<Side> sidesOf(const Faces& faces) {
 
 /// Faces of one edge in pairs that bound a wedge of material: seen along the edge,
 /// counter-clockwise from a face that runs against it, behind which the material begins, to one
-/// that runs along it. Faces that are left are with −1.
+/// that runs along it. Faces that are left are with −1. The same for both halves of an edge, so
+/// that a vertex between them parts it.
 std::vector<std::pair<int, int>> wedges(const TriangleMesh& mesh, const Side* begin,
                                         const Side* end) {
   const Vec3 origin = mesh.vertices.row(begin->low).transpose();
-  const Vec3 axis = (mesh.vertices.row(begin->high).transpose() - origin).stableNormalized();
+  Vec3 axis = (mesh.vertices.row(begin->high).transpose() - origin).stableNormalized();
+  // Upwards, wherever the numbers begin.
+  const bool isTurned = std::tuple(axis.z(), axis.y(), axis.x()) < std::tuple(0.0, 0.0, 0.0);
+  if (isTurned) axis = -axis;
   const Vec3 u = axis.unitOrthogonal();
   const Vec3 w = axis.cross(u);
   struct Ray {
@@ -61,7 +65,9 @@ std::vector<std::pair<int, int>> wedges(const TriangleMesh& mesh, const Side* be
   for (const Side* side = begin; side != end; ++side) {
     const int apex = mesh.faces.data()[previousHalfEdge(side->halfEdge)];
     const Vec3 d = mesh.vertices.row(apex).transpose() - origin;
-    rays.push_back({std::atan2(d.dot(w), d.dot(u)), side->forward, side->halfEdge});
+    constexpr double kSame = 1e-7; // faces that lie on each other keep their order
+    const double angle = kSame * std::round(std::atan2(d.dot(w), d.dot(u)) / kSame);
+    rays.push_back({angle, side->forward != isTurned, side->halfEdge});
   }
   std::stable_sort(rays.begin(), rays.end(),
                    [](const Ray& r, const Ray& s) { return r.angle < s.angle; });

@@ -174,6 +174,25 @@ TEST(SplitToManifold, PartsBodiesThatMeetAtManyEdges) {
   EXPECT_NEAR(volume(result.mesh), 4.0, 1e-3);
 }
 
+TEST(SplitToManifold, PartsAFaceThatLiesOnAnother) {
+  // At the same angle but for rounding, whichever of the two it tells to be nearer.
+  const TriangleMesh body = blob(4);
+  TriangleMesh model = body;
+  model.vertices.conservativeResize(body.vertices.rows() + 1, 3);
+  model.faces.conservativeResize(body.faces.rows() + 1, 3);
+  for (Eigen::Index f = 0; f < body.faces.rows(); ++f) {
+    const auto corner = [&](int k) { return body.vertices.row(body.faces(f, k)); };
+    for (const double share : {0.5, 0.7, 0.9, 1.1, 1.3}) {
+      model.vertices.bottomRows(1) =
+          corner(0) + share * (corner(2) - corner(0)) + 0.1 * (corner(1) - corner(0));
+      model.faces.bottomRows(1) << body.faces(f, 0), body.faces(f, 1),
+          static_cast<int>(body.vertices.rows());
+      const TriangleMesh result = splitToManifold(model, taskFor(body)).mesh;
+      EXPECT_EQ(countEdges(result.vertices.rows(), result.faces).nonManifold, 0U);
+    }
+  }
+}
+
 /// Two cubes with one wall between them.
 TriangleMesh withAWall() {
   const TriangleMesh left = shifted(box({1, 1, 1}, 2), {-0.5, 0, 0});
