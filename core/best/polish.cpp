@@ -45,10 +45,11 @@ Polished polish(const CavityTask& task, const LayeredQuadric& quadric, Moving mo
   const Points directions = directionsOf(region, moving, held, contour);
   const Moments outer = task.model.solidMoments + task.model.attached;
   Points vertices = contour.mesh.vertices;
-  const Displaced done =
-      displace({task.goal, task.weights, task.model.fillings, outer, task.model.solidMoments[0],
-                contour.mesh.faces, directions, kFarthest * edge},
-               vertices);
+  DisplacementTask displacement{
+      task.goal,          task.weights, task.model.fillings, outer, task.model.solidMoments[0],
+      contour.mesh.faces, directions,   kFarthest * edge};
+  displacement.raisesLevel = true;
+  const Displaced done = displace(displacement, vertices);
   if (moving == Moving::CutAlone) {
     contour.mesh.vertices = std::move(vertices);
   } else {

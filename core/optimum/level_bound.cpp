@@ -73,9 +73,9 @@ public:
     for (Eigen::Index c = 0; c < cells.rows(); ++c) {
       layerOf_.push_back(layers.layerAt(cells(c, 3) / cells(c, 0)));
     }
-    best_.reached = -std::numeric_limits<double>::infinity();
     best_.level = std::numeric_limits<double>::infinity();
-    remember(solidStates());
+    best_.states = solidStates();
+    best_.reached = levelsOf(conditions_, best_.states).minCoeff();
   }
 
   struct Solution {
@@ -92,25 +92,27 @@ public:
     const Functionals atZero = conditions_.atZero.transpose() * shares;
     const Functionals slopes = conditions_.slopes.transpose() * shares;
     Solution s{solidStates(), -std::numeric_limits<double>::infinity(), {}};
+    LayeredQuadric worth; // of hollowing those; none for the solid body
     for (int step = 0; step < kMostSteps; ++step) {
-      std::vector<Moments> states =
-          step == 0 ? solidStates()
-                    : statesFor(worthOfHollowing(atZero + s.level * slopes, active.fillings));
+      LayeredQuadric next;
+      if (step > 0) next = worthOfHollowing(atZero + s.level * slopes, active.fillings);
+      std::vector<Moments> states = step > 0 ? statesFor(next) : solidStates();
       const Functionals m = extended(states, active.numbers);
       const double level = -atZero.cwiseProduct(m).sum() / slopes.cwiseProduct(m).sum();
       if (!(level > s.level)) break;
       s.level = level;
       s.states = std::move(states);
+      worth = std::move(next);
     }
     const Functionals m = extended(s.states, active.numbers);
     s.slopes = Matrix::Zero(multipliers.rows(), multipliers.cols());
     s.slopes(Eigen::all, active.numbers) =
         -(conditions_.atZero * m + s.level * conditions_.slopes * m) / slopes.cwiseProduct(m).sum();
-    remember(s.states);
+    remember(s.states, worth);
     if (s.level < best_.level) {
       best_.level = s.level;
       best_.multipliers = multipliers;
-      best_.worth = worthOfHollowing(atZero + s.level * slopes, active.fillings);
+      if (!isHollow_) best_.worth = worthOfHollowing(atZero + s.level * slopes, active.fillings);
     }
     return s;
   }
@@ -135,11 +137,13 @@ private:
     return active;
   }
 
-  void remember(const std::vector<Moments>& states) {
+  void remember(const std::vector<Moments>& states, const LayeredQuadric& worth) {
     const double reached = levelsOf(conditions_, states).minCoeff();
     if (reached <= best_.reached) return;
     best_.reached = reached;
     best_.states = states;
+    best_.worth = worth;
+    isHollow_ = true;
   }
 
   /// What of each layer is hollow where that is worth it, by that many terms of the quadric.
@@ -176,6 +180,7 @@ private:
   std::vector<std::size_t> layerOf_; ///< of each cell
   bool usesInertia_;
   LevelBound best_;
+  bool isHollow_ = false; ///< its body
 };
 
 /// λ = x²/|x|² over some of the conditions, in some of the states, 0 for the others.

@@ -20,8 +20,9 @@ struct LevelBound {
   double reached = 0.0; ///< its level
   double level = 0.0;   ///< no body that is hollow within the cells exceeds this
   Matrix multipliers;   ///< a row a condition, a column a state
-  /// What hollowing out a point lowers λ·(atZero + level slopes) by: the relaxation's best body is
-  /// hollow where this is positive.
+  /// What hollowing out a point lowers λ·(atZero + level slopes) by, for multipliers λ whose best
+  /// body, hollow where this is positive, is the best that was found; those above, where that is
+  /// the solid one.
   LayeredQuadric worth;
 };
 

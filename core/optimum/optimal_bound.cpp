@@ -2,6 +2,7 @@
 
 #include "core/base/symmetric_eigen.h"
 #include "core/base/tolerances.h"
+#include "core/goals/level_problem.h"
 #include "core/goals/objective.h"
 #include "core/optimum/achievable_centres.h"
 #include "core/optimum/spinning_bound.h"
@@ -92,13 +93,27 @@ public:
 
   /// From a quadric that is positive where a good body is hollow.
   MinimizeResult bestFrom(const Moments& quadric) const {
-    constexpr double kSharpness = 20.0; // only cells that its border cuts are hollow in part
-    const Matrix& w = functions_.whitening;
-    const Vector q = (w.transpose() * w).ldlt().solve(w.transpose() * quadric.head(w.rows()));
     MinimizeOptions solver = solverOptions();
     solver.range = kRangeOfSharp;
     return minimize([&](const Vector& x) { return evaluate(x, sharpShare); },
-                    kSharpness * q.normalized(), solver);
+                    sharpCoefficients(quadric), solver);
+  }
+
+  /// Likewise, with the highest level of the goal's conditions.
+  Vector highestFrom(const Moments& quadric, const LinearConditions& conditions) const {
+    const Vector start = sharpCoefficients(quadric);
+    const Eigen::Index count = start.size();
+    const LevelProblem problem(conditions, weights_, statesOf(hollow(start, sharpShare)));
+    const auto evaluateAt = [&](const Vector& x) {
+      const Hollow h = hollow(x.head(count), sharpShare);
+      return problem.at(statesOf(h), 1.0 - h.cavity[0] / solid_[0],
+                        -h.jacobian.row(0).transpose() / solid_[0], x[count]);
+    };
+    MinimizeOptions solver = solverOptions();
+    solver.range = kRangeOfSharp;
+    Vector begin = Vector::Zero(count + 1);
+    begin.head(count) = start;
+    return minimize(evaluateAt, begin, solver).x.head(count);
   }
 
   std::vector<Moments> states(const Vector& q) const {
@@ -124,6 +139,14 @@ private:
     options.feasibility = kFeasibility;
     options.maxEvaluations = 100;
     return options;
+  }
+
+  /// Only cells that its border cuts are hollow in part.
+  Vector sharpCoefficients(const Moments& quadric) const {
+    constexpr double kSharpness = 20.0;
+    const Matrix& w = functions_.whitening;
+    return kSharpness *
+           (w.transpose() * w).ldlt().solve(w.transpose() * quadric.head(w.rows())).normalized();
   }
 
   struct Hollow {
@@ -271,6 +294,27 @@ std::vector<LevelBound> levelsOf(const Goal& goal, const Moments& solid, const F
   return levels;
 }
 
+/// Whole cells are too coarse for a level that several conditions hold down: here those at the
+/// border are hollow in part. Makes the plane or quadric the bound's, and the body the level's
+/// where it is better.
+void refine(const Goal& goal, const Weights& weights, const Moments& solid,
+            const Fillings& fillings, const AdmissibleCells& cells, OptimalBound& bound) {
+  const std::optional<LinearConditions> conditions = conditionsOfMeasure(goal, solid);
+  const bool isWhole = std::none_of(fillings.begin(), fillings.end(),
+                                    [](const Filling& filling) { return filling.isPartial(); });
+  if (!conditions || !isWhole || conditions->atZero.rows() == 1) return;
+  const HollowBodies bodies(goal, weights, solid, fillings, cells);
+  const Vector q = bodies.highestFrom(bound.worth.quadrics.front(), *conditions);
+  bound.worth = LayeredQuadric::ofOneLayer(bodies.quadric(q));
+  std::vector<Moments> states = bodies.states(q);
+  double reached = std::numeric_limits<double>::infinity();
+  for (const Moments& state : states) reached = std::min(reached, levelReached(*conditions, state));
+  LevelBound& level = bound.levels.front(); // there is only one
+  if (reached <= level.reached) return;
+  level.reached = std::min(reached, level.level);
+  level.states = std::move(states);
+}
+
 /// The best body within the cells and, where the goal has a measure, its levels.
 void findBest(const Goal& goal, const Weights& weights, const Moments& solid,
               const Fillings& fillings, const AdmissibleCells& cells, OptimalBound& bound) {
@@ -280,9 +324,10 @@ void findBest(const Goal& goal, const Weights& weights, const Moments& solid,
   std::vector<Moments> states;
   if (!bound.levels.empty() && weights.volume == 0.0) {
     const LevelBound& best = *bound.bestLevel();
+    bound.worth = best.worth;
+    refine(goal, weights, solid, fillings, cells, bound);
     states = best.states;
     bound.massMoments = states.front();
-    bound.worth = best.worth;
     Weights unconstrained = weights;
     unconstrained.constraints = 0.0;
     bound.objective = momentObjective(goal, unconstrained, chosen(states, binding), 1.0);

@@ -2,10 +2,13 @@
 
 #include "core/base/symmetric_eigen.h"
 #include "core/base/tolerances.h"
+#include "core/goals/level_problem.h"
 #include "core/goals/objective.h"
 #include "core/optimum/layered_quadric.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace massprops {
@@ -69,25 +72,44 @@ Displaced displace(const DisplacementTask& task, Points& vertices) {
     state.jacobian.topRows(both.rates.cols()) = both.rates.transpose() * functions;
     return state;
   };
-  const auto evaluateAt = [&](const Vector& q) {
+  const Eigen::Index count = functions.cols();
+  struct Evaluated {
+    std::vector<BodyState> states;
+    double volumeShare;
+    Vector volumeShareGradient;
+  };
+  const auto bodyAt = [&](const Vector& q) {
     const Points moved = displaced(q);
     BodyState cavity = withJacobian(momentsWithRates(moved, moving, task.directions, usesInertia));
     cavity.mass += atRest;
-    const std::vector<BodyState> states =
-        bodyStates(task.fillings, outer, cavity, [&](double level) {
-          return withJacobian(momentsBelowWithRates(moved, task.faces, task.directions, level));
-        });
-    return evaluateBody(task.goal, task.weights, states,
-                        outer.mass[0] / task.solidVolume - cavity.mass[0] / task.solidVolume,
-                        -cavity.jacobian.row(0).transpose() / task.solidVolume);
+    return Evaluated{bodyStates(task.fillings, outer, cavity,
+                                [&](double level) {
+                                  return withJacobian(momentsBelowWithRates(
+                                      moved, task.faces, task.directions, level));
+                                }),
+                     outer.mass[0] / task.solidVolume - cavity.mass[0] / task.solidVolume,
+                     -cavity.jacobian.row(0).transpose() / task.solidVolume};
+  };
+  std::optional<LevelProblem> levels;
+  if (task.raisesLevel) {
+    const std::vector<BodyState> states = bodyAt(Vector::Zero(count)).states;
+    if (auto conditions = conditionsOfMeasure(task.goal, states.front().mass))
+      levels.emplace(std::move(*conditions), task.weights, states);
+  }
+  const auto evaluateAt = [&](const Vector& q) {
+    const Evaluated body = bodyAt(q.head(count));
+    return levels ? levels->at(body.states, body.volumeShare, body.volumeShareGradient, q[count])
+                  : evaluateBody(task.goal, task.weights, body.states, body.volumeShare,
+                                 body.volumeShareGradient);
   };
   MinimizeOptions options;
   options.feasibility = 0.1 * kFeasibility; // rounding needs the rest
   options.range = 1.0 / kUnit;
   options.maxEvaluations = 40;
-  const MinimizeResult result = minimize(evaluateAt, Vector::Zero(functions.cols()), options);
-  vertices = displaced(result.x);
-  return {result.evaluations, result.violation};
+  const MinimizeResult result =
+      minimize(evaluateAt, Vector::Zero(levels ? count + 1 : count), options);
+  vertices = displaced(result.x.head(count));
+  return {result.evaluations, levels ? 0.0 : result.violation};
 }
 
 } // namespace massprops

@@ -18,6 +18,9 @@ struct DisplacementTask {
   /// Whose sums they are, n×r, of any size; empty: a polynomial of degree 2, or 1 where moments of
   /// inertia do not count.
   RowMatrix functions = {};
+  /// Whether the goal's level is raised itself, kinks and all, where one condition is all that it
+  /// asks for: its smooth objective is nearly that only.
+  bool raisesLevel = false;
 };
 
 struct Displaced {
@@ -26,7 +29,7 @@ struct Displaced {
 };
 
 /// Displaces `vertices` along the directions so that the goal's constraints hold and its objective
-/// is least.
+/// is least, or its level highest.
 /// `vertices`: as they become; unchanged where none can move.
 Displaced displace(const DisplacementTask& task, Points& vertices);
 

@@ -78,6 +78,32 @@ TEST(OptimalBound, OfAStandingBoxIsHollowAboveItsCentreOfMass) {
   EXPECT_LT(std::hypot(worth[1], worth[2]), 0.02 * worth[3]);
 }
 
+TEST(OptimalBound, OfWhatTipsOverAllAroundIsHollowAboveAPlaneBetweenCells) {
+  // Turned, so that no layer of cells is as symmetric as the column.
+  const double wall = 0.05;
+  const double height = 2.0;
+  const double radius = 0.1;
+  const Mat3 turned = Eigen::AngleAxisd(0.3, Vec3::UnitZ()).toRotationMatrix();
+  const TriangleMesh outer = transformed(box({1, 1, height}, 4), turned, {0, 0, height / 2});
+  const double A = std::pow(1.0 - 2 * wall, 2);
+  const double top = height - wall;
+  const double lowest = leastValue(
+      [&](double h) {
+        return (height * height / 2 - A * (top * top - h * h) / 2) / (height - A * (top - h));
+      },
+      wall, top);
+  const Moments solid = moments(outer.vertices, outer.faces);
+  const auto goal = makeStandGoal({{}, Vec2(radius, radius)}, {});
+  const OptimalBound limit =
+      optimalBound(*goal, {}, solid, {{}}, admissibleCells(treeOf(outer), wall));
+  const Vec3 centre = limit.massMoments.segment<3>(1) / limit.massMoments[0];
+  EXPECT_LT(centre.head<2>().norm(), 1e-5);
+  EXPECT_NEAR(centre.z(), lowest, 3e-3 * (height / 2 - lowest));
+  const Moments& worth = limit.worth.quadrics.front();
+  EXPECT_LT(std::hypot(worth[1], worth[2]), 3e-3 * worth[3]);
+  EXPECT_LE(limit.bestLevel()->reached, limit.bestLevel()->level);
+}
+
 TEST(OptimalBound, HasTheBestBodyOfAPartOfTheCells) {
   const TriangleMesh outer = transformed(box({1, 1, 2}, 4), Mat3::Identity(), Vec3(0.2, 0, 1));
   const Moments solid = moments(outer.vertices, outer.faces);
