@@ -12,7 +12,9 @@
 #include "core/reduced/search_strategy.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -206,16 +208,21 @@ double gapOf(const CavityTask& task, const CavityResult& result) {
 /// A cavity, or what it will be like.
 struct Made {
   CavityResult result;
-  bool isFinished = true; ///< else neither polished nor inspected
+  bool isFinished = true; ///< else hardly polished and not inspected
 };
 
 /// In cubes of the set's edge. `farthest`: what may be left of what is possible for the cavity to
 /// be worth finishing.
 Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, double farthest) {
   const LayeredQuadric& quadric = task.bound->worth;
-  const auto isWorthIt = [&](const TriangleMesh& mesh) {
-    const CavityResult rough = resultOf(task, mesh);
-    // Where constraints are broken polishing comes first.
+  CavityResult rough;
+  const auto isWorthIt = [&](const Contour& contour) {
+    if (!std::isfinite(farthest)) return true;
+    rough = resultOf(task, contour.mesh);
+    Contour adjusted = contour;
+    polish(task, quadric, Moving::CutAlone, deliverable.edge, {}, adjusted);
+    CavityResult moved = resultOf(task, adjusted.mesh);
+    if (servesBetter(task, moved, rough)) rough = std::move(moved);
     return hollowBody(task, rough).violation > kFeasibility || gapOf(task, rough) <= farthest;
   };
   const double roomy = wallBeforeRounding(task);
@@ -236,7 +243,7 @@ Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, double farth
                                 : "the best possible cavity cannot be resolved";
       break;
     }
-    if (!found->isFinished) return {resultOf(task, found->contour.mesh), false};
+    if (!found->isFinished) return {std::move(rough), false};
     result = polished(task, quadric, wall, *found);
     result.effort.rounds = round;
     if (result.inspection.isClean()) break;
@@ -257,20 +264,19 @@ Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, double farth
 
 /// In finer cubes where those of the set lose too much.
 CavityResult inFineCubes(const CavityTask& task, OpenedSet deliverable) {
-  // What cubes lose goes with the square of their edge.
-  constexpr int kTimes = 2;
-  constexpr double kEnough = 0.015;          // of what is possible is left
-  constexpr double kTooMuch = 1.1 * kEnough; // before anything is polished
-  constexpr double kWanted = 0.01;
+  // What cubes lose goes with the square of their edge, what they take as well.
   constexpr double kAll = std::numeric_limits<double>::infinity();
-  Made best = cavityOf(task, deliverable, kTooMuch);
+  constexpr std::array<double, 3> kEnough{0.015, 0.025, kAll}; // of what is possible is left
+  constexpr double kSlack = 1.1;                               // before all is polished
+  constexpr double kWanted = 0.01;
+  Made best = cavityOf(task, deliverable, kSlack * kEnough[0]);
   double edgeOfBest = deliverable.edge;
-  for (int i = 0; i < kTimes; ++i) {
+  for (std::size_t i = 0; i + 1 < kEnough.size(); ++i) {
     const double gap = gapOf(task, best.result);
-    if (gap <= kEnough || best.result.status == CavityStatus::NoRoom) break;
+    if (gap <= kEnough[i] || best.result.status == CavityStatus::NoRoom) break;
     deliverable.edge *= std::clamp(std::sqrt(kWanted / gap), 0.5, 0.8);
     if (deliverable.edge < kLeastEdge) break;
-    Made finer = cavityOf(task, deliverable, i + 1 < kTimes ? kTooMuch : kAll);
+    Made finer = cavityOf(task, deliverable, kSlack * kEnough[i + 1]);
     finer.result.effort += best.result.effort;
     const bool isBetter = servesBetter(task, finer.result, best.result);
     best.result.effort = finer.result.effort;

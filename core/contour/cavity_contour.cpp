@@ -111,9 +111,9 @@ Troubles troublesLeft(ClearanceQuery& clearance, double wall, Contour& contour) 
 
 } // namespace
 
-std::optional<CavityContour>
-cavityContour(const OpenedSet& set, const std::optional<LayeredQuadric>& quadric,
-              const std::function<bool(const TriangleMesh&)>& isWorthIt) {
+std::optional<CavityContour> cavityContour(const OpenedSet& set,
+                                           const std::optional<LayeredQuadric>& quadric,
+                                           const std::function<bool(const Contour&)>& isWorthIt) {
   ClearanceQuery fresh(set.surface);
   if (!set.deep) return CavityContour{{}, set.edge, fresh};
   const double leastVolume = std::pow(set.width, 3);
@@ -129,7 +129,7 @@ cavityContour(const OpenedSet& set, const std::optional<LayeredQuadric>& quadric
     Contour contour = smoothed(region, set.edge, raw);
     ClearanceQuery clearance(set.surface);
     keepWallNearly(clearance, set.wall, contour.mesh);
-    if (isWorthIt && !isWorthIt(contour.mesh))
+    if (isWorthIt && !isWorthIt(contour))
       return CavityContour{std::move(contour), set.edge, std::move(clearance), false};
     const Troubles troubles = troublesLeft(clearance, set.wall, contour);
     if (troubles.areNone())

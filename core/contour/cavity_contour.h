@@ -24,6 +24,6 @@ struct CavityContour {
 /// there; where it says no that is returned, not finished.
 std::optional<CavityContour>
 cavityContour(const OpenedSet& set, const std::optional<LayeredQuadric>& quadric,
-              const std::function<bool(const TriangleMesh&)>& isWorthIt = {});
+              const std::function<bool(const Contour&)>& isWorthIt = {});
 
 } // namespace massprops
