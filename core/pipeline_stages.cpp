@@ -302,6 +302,13 @@ struct Moved {
   }
 };
 
+/// In the worst of the states that the verdict goes by and no quadric knows; empty: there are none.
+std::optional<double> worstMeasure(const Search& found) {
+  const bool isFound = found.cavity.status == CavityStatus::Found;
+  return found.verdictAfter->worstMeasure(
+      (isFound ? hollowBody(found.task, found.cavity) : inputBody(found.task)).mass);
+}
+
 /// Takes it where it is asked for or serves better: within the outer surface as it has become.
 void considerBestPossible(const Preparation& model, const Foundation& foundation,
                           const Options& options, ProgressBar& bar, Search& found) {
@@ -346,9 +353,15 @@ void considerBestPossible(const Preparation& model, const Foundation& foundation
     found.shapeReason = "the best possible cavity's triangles serve no better";
     return;
   }
-  found.cavity = std::move(best);
-  found.shapeReason = reason;
+  const std::optional<double> worst = worstMeasure(found);
+  CavityResult offsets = std::exchange(found.cavity, std::move(best));
   judge(model, options, found);
+  found.shapeReason = reason;
+  if (options.cavityShape == CavityShape::BestPossible || !worst || worstMeasure(found) >= worst)
+    return;
+  found.cavity = std::move(offsets);
+  judge(model, options, found);
+  found.shapeReason = "the best possible cavity serves less while its rooms are filled";
 }
 
 Search bestOfShapes(const Preparation& model, const Foundation& foundation, const Options& options,

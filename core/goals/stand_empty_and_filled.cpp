@@ -74,6 +74,12 @@ public:
     report.add("stands_filling_" + suffix, angle > 0.0);
   }
 
+  std::optional<double> worstMeasure(const Moments& massMoments) const override {
+    return levels_ ? leastAngle(massMoments)
+                   : std::min(tippingAngleOf(area_, massMoments),
+                              tippingAngleOf(area_, filled_(massMoments)));
+  }
+
   std::string bestInWords(const std::vector<Moments>& states) const override {
     return stand_->bestInWords(states) + " at the worst level of its contents";
   }

@@ -13,6 +13,10 @@ std::string Verdict::remark(const Moments& /*massMoments*/) const {
 void Verdict::describeWorst(double /*measure*/, const std::string& /*suffix*/,
                             Report& /*report*/) const {}
 
+std::optional<double> Verdict::worstMeasure(const Moments& /*massMoments*/) const {
+  return std::nullopt;
+}
+
 std::string Verdict::bestInWords(const std::vector<Moments>& states) const {
   return "at best " + worstViolation(states.front());
 }

@@ -6,6 +6,7 @@
 #include "core/mesh/annotations.h"
 #include "core/physics/mass_properties.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,9 @@ public:
   /// Adds the goal's measure (goal.h) of a body in the worst of its states, where there are
   /// several.
   virtual void describeWorst(double measure, const std::string& suffix, Report& report) const;
+  /// The goal's measure in the worst of all states of this body, where it has states that its mass
+  /// moments do not tell.
+  virtual std::optional<double> worstMeasure(const Moments& massMoments) const;
   /// What the best of all bodies reaches, in words, when no body holds all constraints. `states`:
   /// its mass moments in each.
   virtual std::string bestInWords(const std::vector<Moments>& states) const;
