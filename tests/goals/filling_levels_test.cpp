@@ -1,6 +1,8 @@
 // Tipping angles of bodies that are being filled, against closed forms and plain sampling.
 #include "core/goals/filling_levels.h"
 
+#include "core/goals/stand.h"
+#include "core/goals/stand_empty_and_filled.h"
 #include "core/model/contact.h"
 #include "core/physics/hydrostatics.h"
 #include "goals/goal_checks.h"
@@ -75,6 +77,25 @@ TEST(FillingLevels, OfTwoCavitiesAreWorstWithOneFullAndOneEmpty) {
   const double least = levels.leastTangent(directions, empty, 1.0);
   EXPECT_LE(least, expected + 1e-9);
   EXPECT_NEAR(least, expected, 0.02);
+}
+
+TEST(FillingLevels, AreTheStatesThatOnlyTheVerdictKnows) {
+  const TriangleMesh both =
+      joined(boxAt({0.2, 0.2, 0.2}, {0.35, 0, 0.5}), boxAt({0.2, 0.2, 0.2}, {-0.35, 0, 0.5}));
+  const Moments empty = bodyAt({0, 0, 0.5}, 0.01);
+  const Moments outer = empty + momentsOf(both);
+  const ContactArea area = square(0.5);
+  const auto hollow = makeStandEmptyAndFilledVerdict(area, outer, 1.0, 1.0, &both);
+  const double least =
+      FillingLevels(both.vertices, both.faces).leastTangent(tippingDirections(area), empty, 1.0);
+  ASSERT_TRUE(hollow->worstMeasure(empty));
+  EXPECT_NEAR(std::tan(*hollow->worstMeasure(empty) * std::acos(-1.0) / 180.0), least, 1e-12);
+  // Both ends stand better.
+  EXPECT_LT(*hollow->worstMeasure(empty), tippingAngleOf(area, empty) - 1.0);
+  EXPECT_LT(*hollow->worstMeasure(empty), tippingAngleOf(area, outer) - 1.0);
+  const auto solid = makeStandEmptyAndFilledVerdict(area, outer, 1.0, 1.0, nullptr);
+  EXPECT_NEAR(solid->worstMeasure(outer).value_or(0.0), tippingAngleOf(area, outer), 1e-9);
+  EXPECT_FALSE(makeStandVerdict(area, 1.0)->worstMeasure(empty));
 }
 
 } // namespace
