@@ -140,9 +140,13 @@ def main(words=None):
               file=sys.stderr)
         return 2
     results.mkdir(parents=True, exist_ok=True)
-    # A worker gets no model before it has a core for it: one that crashes takes no other down with it.
+    # A worker gets no model before it has a core for it: one that crashes takes no other down with it. And nobody
+    # looks at what Dask measures of itself a hundred times a second.
     dask.config.set({"distributed.scheduler.worker-saturation": 1.0,
-                     "distributed.scheduler.allowed-failures": 1})
+                     "distributed.scheduler.allowed-failures": 1,
+                     "distributed.worker.profile.interval": "10s",
+                     "distributed.worker.profile.cycle": "100s",
+                     "distributed.admin.tick.interval": "500ms"})
     cluster = scheduler or LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None)
     with Client(cluster) as client:
         reports = run(client, work, parameters)
