@@ -147,7 +147,7 @@ def main(words=None):
                      "distributed.worker.profile.interval": "10s",
                      "distributed.worker.profile.cycle": "100s",
                      "distributed.admin.tick.interval": "500ms"})
-    cluster = scheduler or LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None)
+    cluster = scheduler or LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=":0")
     with Client(cluster) as client:
         reports = run(client, work, parameters)
     if not scheduler:
