@@ -118,10 +118,10 @@ void define(CLI::App& app, Arguments& arguments) {
       ->check(CLI::Range(1, 1024).description(""));
   app.add_flag("--quiet", arguments.quiet, "No line for each model, no progress");
   app.add_option("--describe", arguments.describe,
-                 "Instead of a run: all parameters in JSON, the manual's page, or what bash "
-                 "completes words by")
-      ->type_name("json|man|bash")
-      ->check(CLI::IsMember({"json", "man", "bash"}).description(""));
+                 "Instead of a run: all parameters in JSON, the manual's page, what bash completes "
+                 "words by, or filters.json of the coming MeshLab")
+      ->type_name("json|man|bash|filters")
+      ->check(CLI::IsMember({"json", "man", "bash", "filters"}).description(""));
   for (const Parameter& parameter : parameterTable()) {
     // The answer is a file here.
     if (parameter.name != "show_layers") addParameter(app, parameter, arguments);

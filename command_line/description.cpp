@@ -1,6 +1,7 @@
 #include "command_line/description.h"
 
 #include "command_line/arguments.h"
+#include "command_line/coming_meshlab.h"
 #include "core/goals/registry.h"
 #include "core/parameters.h"
 
@@ -112,7 +113,7 @@ std::string bash() {
     for (const std::string& entry : parameter.entries) script << entry << '\n';
     script << "' ;;\n";
   }
-  script << "    --describe) words=$'json\\nman\\nbash' ;;\n"
+  script << "    --describe) words=$'json\\nman\\nbash\\nfilters' ;;\n"
          << "    " << files << ") compopt -o default; return ;;\n"
          << "    *) case $current in -*) words='" << names
          << "' ;; *) compopt -o default; return ;; "
@@ -127,6 +128,7 @@ std::string bash() {
 
 std::string described(const std::string& form) {
   if (form == "man") return man();
+  if (form == "filters") return filtersOfComingMeshLab();
   return form == "bash" ? bash() : json();
 }
 

@@ -70,6 +70,32 @@ class TableTest(ProgramTest):
                         self.assertEqual(listed, entries)
                         self.assertEqual(p.get("enum_cardinality"), str(len(entries)))
 
+    def test_the_coming_meshlab_can_read_it(self):
+        """Its rules: docs/design/adding_a_filter.md and vocabulary.md of its repository."""
+        file = json.loads(self.run_program("--describe", "filters")[0])
+        (told,) = file["filters"]
+        self.assertEqual(told["referenceIds"], [one["id"] for one in file["references"]])
+        self.assertNotRegex(told["shortDescription"], r"[\n*`$<\[]")
+        self.assertEqual([p["id"] for p in told["parameters"]], [r["name"] for r in self.table])
+        types = {"switch": "bool", "whole number": "int", "number": "double", "share": "double",
+                 "length": "absperc", "choice": "enum", "file": "filesave"}
+        shares = {"@bboxDiag01": 0.01}
+        for parameter, row in zip(told["parameters"], self.table):
+            with self.subTest(row["name"]):
+                self.assertEqual(parameter["type"], types[row["kind"]])
+                self.assertTrue(parameter["label"] and parameter["help"])
+                self.assertEqual(parameter["group"].startswith("advanced"), row["advanced"])
+                self.assertNotIn("\\n", parameter["help"])
+                default = parameter["default"]
+                if row["kind"] == "length":
+                    self.assertEqual(shares.get(default, default), row["default_share_of_diagonal"])
+                    self.assertEqual((parameter["min"], parameter["max"]), (0, "@bboxDiag"))
+                elif row["kind"] == "choice":
+                    self.assertEqual([o["id"] for o in parameter["enumOptions"]], row["entries"])
+                    self.assertEqual(default, row["entries"][row["default"]])
+                else:
+                    self.assertEqual(default, row["default"])
+
 
 if __name__ == "__main__":
     unittest.main()
