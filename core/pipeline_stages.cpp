@@ -351,6 +351,9 @@ void considerBestPossible(const Preparation& model, const Foundation& foundation
   if ((options.cavityShape != CavityShape::BestPossible || hasMoved) &&
       !servesBetter(found.task, best, found.cavity)) {
     found.shapeReason = "the best possible cavity's triangles serve no better";
+    // It sees room where no offset surface has any.
+    if (found.cavity.status == CavityStatus::NoRoom && best.status == CavityStatus::NoGain)
+      found.cavity = std::move(best);
     return;
   }
   const std::optional<double> worst = worstMeasure(found);
