@@ -48,7 +48,7 @@ public:
     for (Eigen::Index v = 0; v < given_.vertices.rows(); ++v) {
       points_.emplace_back(given_.vertices.row(v).transpose());
     }
-    for (Eigen::Index f = 0; f < given_.faces.rows(); ++f) cut(given_.faces.row(f));
+    for (Eigen::Index f = 0; f < given_.faces.rows(); ++f) cut(static_cast<int>(f));
   }
 
   /// Rounds the cut's points.
@@ -68,10 +68,10 @@ public:
     boost::disjoint_sets<int*, int*> sets(rank.data(), parent.data());
     for (std::size_t v = 0; v < points_.size(); ++v) sets.make_set(static_cast<int>(v));
     const double limit = std::min(distance, kShareOfEdge * medianOfBorder());
-    for (const Eigen::RowVector3i& face : clipped_) {
+    for (const Part& part : clipped_) {
       for (int k = 0; k < 3; ++k) {
-        const int a = face[k];
-        const int b = face[(k + 1) % 3];
+        const int a = part.corners[k];
+        const int b = part.corners[(k + 1) % 3];
         if ((isCut(a) || isCut(b)) && (points_[at(a)] - points_[at(b)]).norm() < limit) {
           sets.union_set(a, b);
         }
@@ -84,12 +84,13 @@ public:
       if (known < 0 || (!isCut(known) && isCut(v))) known = v;
     }
     const auto place = [&](int v) { return representative[at(sets.find_set(v))]; };
-    for (std::vector<Eigen::RowVector3i>* faces : {&kept_, &clipped_}) {
-      for (Eigen::RowVector3i& face : *faces) face = face.unaryExpr(place);
-      const auto isFlat = [](const Eigen::RowVector3i& f) {
+    for (std::vector<Part>* parts : {&kept_, &clipped_}) {
+      for (Part& part : *parts) part.corners = part.corners.unaryExpr(place).eval();
+      const auto isFlat = [](const Part& part) {
+        const Eigen::RowVector3i& f = part.corners;
         return f[0] == f[1] || f[1] == f[2] || f[2] == f[0];
       };
-      faces->erase(std::remove_if(faces->begin(), faces->end(), isFlat), faces->end());
+      parts->erase(std::remove_if(parts->begin(), parts->end(), isFlat), parts->end());
     }
     std::map<int, int> next;
     std::size_t steps = 0;
@@ -141,14 +142,30 @@ public:
     for (Eigen::Index v = 0; v < vertices.rows(); ++v) vertices.row(v) = points_[at(v)].transpose();
     Faces faces(static_cast<Eigen::Index>(kept_.size() + clipped_.size() + caps.size()), 3);
     Eigen::Index row = 0;
-    for (const auto* part : {&kept_, &clipped_, &caps}) {
-      for (const Eigen::RowVector3i& face : *part) faces.row(row++) = face;
+    for (const auto* parts : {&kept_, &clipped_}) {
+      for (const Part& part : *parts) faces.row(row++) = part.corners;
     }
+    for (const Eigen::RowVector3i& face : caps) faces.row(row++) = face;
     return submesh(vertices, faces).mesh;
+  }
+
+  /// But for those that close it.
+  std::vector<int> facesOf() const {
+    std::vector<int> result;
+    for (const auto* parts : {&kept_, &clipped_}) {
+      for (const Part& part : *parts) result.push_back(part.face);
+    }
+    return result;
   }
 
 private:
   static constexpr double kShareOfEdge = 0.1;
+
+  /// Of a face of the surface, or all of it.
+  struct Part {
+    Eigen::RowVector3i corners;
+    int face;
+  };
 
   bool isAbove(int v) const { return points_[at(v)].z() > level_; }
   bool isCut(int v) const { return v >= given_.vertices.rows(); }
@@ -167,9 +184,10 @@ private:
     return known->second;
   }
 
-  void cut(const Eigen::RowVector3i& face) {
+  void cut(int f) {
+    const Eigen::RowVector3i face = given_.faces.row(f);
     const int above = int(isAbove(face[0])) + int(isAbove(face[1])) + int(isAbove(face[2]));
-    if (above == 3) kept_.push_back(face);
+    if (above == 3) kept_.push_back({face, f});
     if (above == 0 || above == 3) return;
     // The corner that is alone on its side comes first.
     int k = 0;
@@ -180,7 +198,7 @@ private:
     const int onB = cutPoint(a, b);
     const int onC = cutPoint(a, c);
     if (above == 1) {
-      clipped_.emplace_back(a, onB, onC);
+      clipped_.push_back({{a, onB, onC}, f});
       next_[onC] = onB;
       return;
     }
@@ -191,11 +209,11 @@ private:
                       roundness(points_[at(p)], points_[at(r)], points_[at(s)]));
     };
     if (worse(onB, b, c, onC) >= worse(b, c, onC, onB)) {
-      clipped_.emplace_back(onB, b, c);
-      clipped_.emplace_back(onB, c, onC);
+      clipped_.push_back({{onB, b, c}, f});
+      clipped_.push_back({{onB, c, onC}, f});
     } else {
-      clipped_.emplace_back(b, c, onC);
-      clipped_.emplace_back(b, onC, onB);
+      clipped_.push_back({{b, c, onC}, f});
+      clipped_.push_back({{b, onC, onB}, f});
     }
   }
 
@@ -203,7 +221,7 @@ private:
   double level_;
   std::vector<Vec3> points_; ///< the given vertices, then those of the cut
   std::map<std::pair<int, int>, int> cutOf_;
-  std::vector<Eigen::RowVector3i> kept_, clipped_;
+  std::vector<Part> kept_, clipped_;
   std::map<int, int> next_; ///< along the border, as the caps run
   bool isSimple_ = true;
 };
@@ -281,15 +299,19 @@ std::vector<Eigen::RowVector3i> capsOf(const std::vector<Loop>& loops, double le
       return vertex;
     };
     std::size_t corners = 0;
+    std::vector<std::vector<Triangulation::Vertex_handle>> borders;
     for (const Loop& loop : loops) {
-      std::vector<Triangulation::Vertex_handle> border;
-      for (const int v : loop) border.push_back(insert(v));
+      borders.emplace_back();
+      for (const int v : loop) borders.back().push_back(insert(v));
+      corners += loop.size();
+    }
+    // No constraint may join a point to itself.
+    if (plane.number_of_vertices() != corners) return {};
+    for (const auto& border : borders) {
       for (std::size_t i = 0; i < border.size(); ++i) {
         plane.insert_constraint(border[i], border[(i + 1) % border.size()]);
       }
-      corners += loop.size();
     }
-    if (plane.number_of_vertices() != corners) return {};
     markWithin(plane);
     const std::vector<Vec2> inner = innerPoints(plane, points, loops, edge);
     Points rounded(static_cast<Eigen::Index>(inner.size()), 3);
@@ -329,7 +351,9 @@ std::optional<PlaneCut> cutAbove(const TriangleMesh& surface, double level, doub
     for (const int v : face)
       heights.extend(Eigen::Matrix<double, 1, 1>(opened.points()[at(v)].z()));
   }
-  return PlaneCut{opened.closedBy(caps), heights.sizes()[0]};
+  std::vector<int> faceOf = opened.facesOf();
+  faceOf.resize(faceOf.size() + caps.size(), -1);
+  return PlaneCut{opened.closedBy(caps), std::move(faceOf), heights.sizes()[0]};
 }
 
 } // namespace massprops

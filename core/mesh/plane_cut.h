@@ -5,13 +5,16 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 namespace massprops {
 
 /// What is left above a plane z = level.
 struct PlaneCut {
   TriangleMesh mesh; ///< closed where the surface was; faces above keep their order and come first
-  double spread;     ///< of the heights of the cut's points: 0 where what stores them allows
+  /// For every face of `mesh` the one of the surface that it is a part of; -1: a cap's.
+  std::vector<int> faceOf;
+  double spread; ///< of the heights of the cut's points: 0 where what stores them allows
 };
 
 /// Leaves the part of a surface above the plane and closes it by flat caps, one for each polygon

@@ -153,19 +153,24 @@ TriangleMesh arch() {
   return mesh;
 }
 
-TEST(Cutaway, IsNothingWhereTheHalfWouldHangTogetherByAnEdge) {
+TEST(Cutaway, PartsWhatWouldHangTogetherByAnEdge) {
   const TriangleMesh whole = arch();
   ASSERT_TRUE(isClosedAndOriented(whole));
   ASSERT_EQ(intersectingPairs(whole), 0U);
-  EXPECT_FALSE(cutaway(whole, 0, Vec3::Zero(), -Vec3::UnitY()));
-  // The other half is one piece.
-  EXPECT_TRUE(cutaway(whole, 0, Vec3::Zero(), Vec3::UnitY()));
+  for (const double side : {-1.0, 1.0}) {
+    const ColouredMesh half = cutaway(whole, 0, Vec3::Zero(), side * Vec3::UnitY()).value();
+    EXPECT_TRUE(isClosedAndOriented(mergedAndCompacted(half.mesh).mesh));
+    EXPECT_NEAR(moments(half.mesh.vertices, half.mesh.faces)[0], side < 0.0 ? 3.0 : 4.0, 1e-9);
+  }
 }
 
 TEST(PictureOf, SaysWhyThereIsNone) {
-  // The outer surface alone was moved, and the plane through its centre of mass cannot be cut
-  // along.
-  const TriangleMesh whole = arch();
+  // The outer surface alone was moved, and crosses itself: no plane near its centre of mass can be
+  // cut along.
+  const TriangleMesh bar = box({1.0, 1.0, 6.0}, 2);
+  TriangleMesh other = bar;
+  other.vertices.rowwise() += Eigen::RowVector3d(0.3, 0.3, 0.1);
+  const TriangleMesh whole = joined(bar, other);
   PosedModel posed;
   posed.vertices = whole.vertices;
   posed.faces = whole.faces;

@@ -145,5 +145,17 @@ TEST(PlaneCut, OfAnOpenSurfaceKeepsItsOpening) {
   EXPECT_EQ(borderEdges(cut->mesh), 16U);
 }
 
+TEST(PlaneCut, IsNothingWhereCornersMeet) {
+  // Rounding takes the width of one of the polygons.
+  const TriangleMesh body = box({1.0, 1.0, 1.0}, 2);
+  const auto flattened = [](const Points& points) {
+    Points rounded = points;
+    rounded.col(0).setZero();
+    rounded.col(1).setZero();
+    return rounded;
+  };
+  EXPECT_FALSE(cutAbove(body, 0.1, 0.0, flattened));
+}
+
 } // namespace
 } // namespace massprops::testing
