@@ -20,10 +20,10 @@ double reserve(const GroundContact& contact, const PosedModel& posed, Admissible
   moved.contact = scaled(contact.area, posed.frame.length);
   const std::unique_ptr<Goal> goal = makeGoal(options, moved, moved.vertices);
   const Moments solid = moments(moved.vertices, moved.faces, goal->usesInertia());
-  // Goals of standing do not look at second moments.
-  cells.middleCols<3>(1) -= cells.col(0) * shift.transpose();
-  for (Filling& state : states) state.level -= shift.z();
   if (cells.rows() > 0) {
+    // Goals of standing do not look at second moments.
+    cells.middleCols<3>(1) -= cells.col(0) * shift.transpose();
+    for (Filling& state : states) state.level -= shift.z();
     return reserveOf(optimalBound(*goal, options.weights, solid, states, cells));
   }
   double reached = -std::numeric_limits<double>::infinity();
