@@ -1,0 +1,86 @@
+"""What README.md and docs/hosts.md show of meshlabserver and PyMeshLab, as it stands there."""
+import os
+import re
+import subprocess
+import sys
+import unittest
+from unittest import mock
+
+import numpy as np
+
+from host import (ROOT, SAMPLES, HostTest, bounds_a_volume, changed_script, host_folder, layers_of,
+                  read_ply, report_in)
+
+PAGES = ("README.md", "docs/hosts.md")
+
+
+def shown(pattern):
+    """All that matches in the pages, in their order."""
+    texts = ((ROOT / page).read_text(encoding="utf-8") for page in PAGES)
+    return [match for text in texts for match in re.findall(pattern, text, re.MULTILINE | re.DOTALL)]
+
+
+class MeshlabserverTest(HostTest):
+    def run_line(self, line):
+        """As if the plugin were installed; what the line prints."""
+        programs, libraries = host_folder()
+        done = subprocess.run(["sh", "-euc", line], cwd=self.folder, stdout=subprocess.PIPE,
+                              stderr=subprocess.DEVNULL, check=False,
+                              env=dict(os.environ, PATH=f"{programs}:{os.environ['PATH']}",
+                                       LD_LIBRARY_PATH=str(libraries)))
+        # 5: xvfb-run could not clean up.
+        self.assertIn(done.returncode, (0, 5), line)
+        return done.stdout.decode()
+
+    def test_lines(self):
+        (self.folder / "sample_meshes").symlink_to(SAMPLES)
+        (self.folder / "stand.mlx").symlink_to(SAMPLES / "stand.mlx")
+        (self.folder / "flatten.mlx").symlink_to(ROOT / "scripts" / "flatten.mlx")
+        (self.folder / "model.ply").symlink_to(SAMPLES / "box_on_corner.ply")
+        changed_script(SAMPLES / "stand.mlx", self.folder / "show.mlx", show_layers="true")
+        lines = shown(r"^xvfb-run [^\n]*$")
+        self.assertGreaterEqual(len(lines), 6)
+        for line in lines:
+            with self.subTest(line):
+                written = re.findall(r"-[ow] (\S+)", line)
+                for name in written:
+                    (self.folder / name).unlink(missing_ok=True)
+                said = self.run_line(line)
+                self.assertTrue(all((self.folder / name).is_file() for name in written))
+                self.assertNotEqual("stand.mlx" in line or "show.mlx" in line,
+                                    not report_in(said).get("solved", False))
+        self.assertEqual(bounds_a_volume(self.folder / "model.ply", self.folder / "cavity.ply"), "")
+        self.assertGreater((self.folder / "hollow.stl").stat().st_size, 50 * len(
+            read_ply(self.folder / "cavity.ply")[1]))
+        self.assertEqual(len(layers_of(self.folder / "hollow.mlp")), 2)
+        self.assertEqual(len(layers_of(self.folder / "answer.mlp")), 5)
+
+
+class PyMeshLabTest(unittest.TestCase):
+    """Debian does not have it: a stand-in is asked, by the names of our parameters."""
+
+    def test_blocks(self):
+        listed = subprocess.run([os.environ["MASSPROPS_LIST_PARAMETERS"], "1"], check=True,
+                                stdout=subprocess.PIPE).stdout.decode()
+        names = {line.split("\t")[0] for line in listed.splitlines()}
+        blocks = [block for block in shown(r"^```python\n(.*?)^```") if "pymeshlab." in block]
+        self.assertEqual(len(blocks), 2)
+        for block in blocks:
+            pymeshlab, meshes = mock.MagicMock(), mock.MagicMock()
+            pymeshlab.MeshSet.return_value = meshes
+            answer = {"cavity_components": 1}
+            meshes.apply_filter.return_value = meshes.mass_property_optimization.return_value = answer
+            known = {"pymeshlab": pymeshlab, "meshes": meshes, "vertices": np.zeros((3, 3)),
+                     "faces": np.zeros((1, 3), int)}
+            with mock.patch.dict(sys.modules, pymeshlab=pymeshlab):
+                exec(block, known)  # pylint: disable=exec-used
+            calls = meshes.apply_filter.mock_calls + meshes.mass_property_optimization.mock_calls
+            self.assertTrue(calls)
+            for _, given, parameters in calls:
+                self.assertIn(given, ((), ("mass_property_optimization",)))
+                self.assertLessEqual(set(parameters), names)
+            self.assertIs(known["report"], answer)
+
+
+if __name__ == "__main__":
+    unittest.main()
