@@ -1,17 +1,15 @@
 """What README.md and docs/hosts.md show of meshlabserver and PyMeshLab, as it stands there."""
+import ast
 import os
 import re
 import subprocess
-import sys
 import unittest
-from unittest import mock
-
-import numpy as np
 
 from host import (ROOT, SAMPLES, HostTest, bounds_a_volume, changed_script, host_folder, layers_of,
                   read_ply, report_in)
 
 PAGES = ("README.md", "docs/hosts.md")
+FILTER_CALLS = ("apply_filter", "mass_property_optimization")
 
 
 def shown(pattern):
@@ -57,7 +55,7 @@ class MeshlabserverTest(HostTest):
 
 
 class PyMeshLabTest(unittest.TestCase):
-    """Debian does not have it: a stand-in is asked, by the names of our parameters."""
+    """Debian does not have it: the blocks are read, not run."""
 
     def test_blocks(self):
         listed = subprocess.run([os.environ["MASSPROPS_LIST_PARAMETERS"], "1"], check=True,
@@ -66,20 +64,13 @@ class PyMeshLabTest(unittest.TestCase):
         blocks = [block for block in shown(r"^```python\n(.*?)^```") if "pymeshlab." in block]
         self.assertEqual(len(blocks), 2)
         for block in blocks:
-            pymeshlab, meshes = mock.MagicMock(), mock.MagicMock()
-            pymeshlab.MeshSet.return_value = meshes
-            answer = {"cavity_components": 1}
-            meshes.apply_filter.return_value = meshes.mass_property_optimization.return_value = answer
-            known = {"pymeshlab": pymeshlab, "meshes": meshes, "vertices": np.zeros((3, 3)),
-                     "faces": np.zeros((1, 3), int)}
-            with mock.patch.dict(sys.modules, pymeshlab=pymeshlab):
-                exec(block, known)  # pylint: disable=exec-used
-            calls = meshes.apply_filter.mock_calls + meshes.mass_property_optimization.mock_calls
-            self.assertTrue(calls)
-            for _, given, parameters in calls:
-                self.assertIn(given, ((), ("mass_property_optimization",)))
-                self.assertLessEqual(set(parameters), names)
-            self.assertIs(known["report"], answer)
+            calls = [node for node in ast.walk(ast.parse(block)) if isinstance(node, ast.Call)
+                     and getattr(node.func, "attr", "") in FILTER_CALLS]
+            self.assertTrue(calls, block)
+            for call in calls:
+                self.assertLessEqual({keyword.arg for keyword in call.keywords}, names)
+                for given in call.args:
+                    self.assertEqual(ast.literal_eval(given), "mass_property_optimization")
 
 
 if __name__ == "__main__":
