@@ -138,6 +138,7 @@ void print(const Case& c, const Trial& t) {
   if (t.outcome == Outcome::NothingFits)
     std::printf("; %s: %.2f walls deep", isContradicted(t) ? "CONTRADICTED" : "confirmed",
                 t.deepest);
+  if (std::isfinite(t.gain)) std::printf(", %.3f degrees to gain", t.gain);
   if (t.outcome == Outcome::EnclosesNothing) std::printf("; encloses nothing");
   if (t.reason[0] != '\0') std::printf("; %s%s", t.isBroken ? "BROKEN: " : "", t.reason);
   const bool isMended = t.repairs[0] != '\0' && std::string(t.repairs) != "none";

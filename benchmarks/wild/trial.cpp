@@ -6,6 +6,7 @@
 #include "judge/enclosure.h"
 #include "judge/guarantee.h"
 #include "wild/model_files.h"
+#include "wild/standing_gain.h"
 
 #include <malloc.h>
 #include <sys/resource.h>
@@ -25,8 +26,9 @@ namespace {
 
 /// Of the diagonal's cube: less is a sheet.
 constexpr double kEnclosesNothing = 1e-5;
-/// Of the wall, for what the depth is known within.
-constexpr double kDepthTolerance = 1.02;
+/// Of the wall: of rooms narrower than a wall, with what the depth is known within.
+constexpr double kNarrow = 1.5 * 1.02;
+constexpr double kSmallGain = 0.05;
 
 void standOnEllipse(Options& options, double diagonal) {
   options.radiusX = options.radiusY = 0.02 * diagonal;
@@ -274,7 +276,8 @@ bool isServed(const Trial& trial) {
 }
 
 bool isContradicted(const Trial& trial) {
-  return trial.outcome == Outcome::NothingFits && trial.deepest > kDepthTolerance;
+  return trial.outcome == Outcome::NothingFits && trial.deepest > kNarrow &&
+         trial.gain > kSmallGain;
 }
 
 void tryOut(const Case& c, const Limits& limits, const std::function<void(const Trial&)>& tell) {
@@ -312,6 +315,8 @@ void tryOut(const Case& c, const Limits& limits, const std::function<void(const 
     write(trial.reason, fault);
   } else if (trial.outcome == Outcome::NothingFits) {
     trial.deepest = testing::depthOf(model, wall).atMost / wall;
+    if (c.asked->goal == GoalKind::Stand && trial.deepest > kNarrow && !trial.isTurned)
+      trial.gain = standingGain(result.outer ? *result.outer : model, wall);
   }
   trial.isJudged = true;
   tell(trial);

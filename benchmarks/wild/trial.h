@@ -4,6 +4,7 @@
 #include "core/base/options.h"
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -53,15 +54,17 @@ struct Trial {
   double before = 0.0, after = 0.0, limit = 0.0, gap = 0.0, violation = 0.0; ///< as reported
   double wall = 0.0;    ///< the least that was measured, in walls; 0: no cavity
   double deepest = 0.0; ///< where nothing fits: in walls, how deep a point may be
-  double volume = 0.0;  ///< of the mended solid, by what the given triangles enclose; 0: unknown
-  double moved = 0.0;   ///< by mending, in walls
+  double gain = std::numeric_limits<double>::infinity(); ///< there, of standing: degrees, in cubes
+  double volume = 0.0; ///< of the mended solid, by what the given triangles enclose; 0: unknown
+  double moved = 0.0;  ///< by mending, in walls
   double cpu = 0.0, seconds = 0.0, checkSeconds = 0.0; ///< processor, wall; for checking the model
   double megabytes = 0.0;                              ///< above the model
 };
 
-/// A cavity that keeps what is promised, or none where other code finds no point behind the wall.
+/// A cavity that keeps what is promised, or none where other code agrees.
 bool isServed(const Trial& trial);
-/// Whether no cavity fits, but a point was found that is deeper than the wall.
+/// Whether there is no cavity although a point may be half a wall deeper than the wall, so that a
+/// room is as wide as a wall, and a twentieth of a degree can be gained where it is asked for.
 bool isContradicted(const Trial& trial);
 
 struct Limits {

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <queue>
 #include <vector>
 
@@ -119,6 +120,28 @@ Eigen::AlignedBox3d boxOf(const TriangleMesh& mesh) {
   return box;
 }
 
+Triangles withArea(const TriangleMesh& mesh) {
+  Triangles triangles;
+  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
+    Kernel::Point_3 p[3];
+    for (int k = 0; k < 3; ++k) {
+      const auto row = mesh.vertices.row(mesh.faces(f, k));
+      p[k] = {row[0], row[1], row[2]};
+    }
+    const Kernel::Triangle_3 triangle(p[0], p[1], p[2]);
+    if (!triangle.is_degenerate()) triangles.push_back(triangle);
+  }
+  return triangles;
+}
+
+template <class Visit>
+void forHalved(const Vec3& middle, double side, const Visit& visit) {
+  for (int k = 0; k < 8; ++k) {
+    const Vec3 way((k & 1) != 0 ? 1.0 : -1.0, (k & 2) != 0 ? 1.0 : -1.0, (k & 4) != 0 ? 1.0 : -1.0);
+    visit(Vec3(middle + 0.25 * side * way), 0.5 * side);
+  }
+}
+
 /// Calls visit(middle) for cubes of this side that fill the box.
 template <class Visit>
 void forCubes(const Eigen::AlignedBox3d& box, double side, const Visit& visit) {
@@ -152,16 +175,7 @@ Enclosure enclosedBy(const TriangleMesh& mesh) {
 
 Depth depthOf(const TriangleMesh& mesh, double least) {
   const Winding winding(mesh);
-  Triangles triangles;
-  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
-    Kernel::Point_3 p[3];
-    for (int k = 0; k < 3; ++k) {
-      const auto row = mesh.vertices.row(mesh.faces(f, k));
-      p[k] = {row[0], row[1], row[2]};
-    }
-    const Kernel::Triangle_3 triangle(p[0], p[1], p[2]);
-    if (!triangle.is_degenerate()) triangles.push_back(triangle);
-  }
+  const Triangles triangles = withArea(mesh);
   if (triangles.empty()) return {0.0, 0.0};
   const Tree tree(triangles.cbegin(), triangles.cend());
 
@@ -196,15 +210,32 @@ Depth depthOf(const TriangleMesh& mesh, double least) {
     const Cube cube = cubes.top();
     if (cube.most <= std::max(depth.atLeast, least) * (1.0 + kResolution)) break;
     cubes.pop();
-    for (int k = 0; k < 8; ++k) {
-      const Vec3 way((k & 1) != 0 ? 1.0 : -1.0, (k & 2) != 0 ? 1.0 : -1.0,
-                     (k & 4) != 0 ? 1.0 : -1.0);
-      add(cube.middle + 0.25 * cube.side * way, 0.5 * cube.side);
-    }
+    forHalved(cube.middle, cube.side, add);
   }
   if (!cubes.empty()) depth.atMost = std::max(depth.atMost, cubes.top().most);
   depth.atMost = std::max(depth.atMost, depth.atLeast);
   return depth;
+}
+
+std::vector<Cell> cellsDeeperThan(const TriangleMesh& mesh, double depth, double side) {
+  const Winding winding(mesh);
+  const Triangles triangles = withArea(mesh);
+  if (triangles.empty()) return {};
+  const Tree tree(triangles.cbegin(), triangles.cend());
+  std::vector<Cell> cells;
+  const std::function<void(const Vec3&, double)> add = [&](const Vec3& middle, double cube) {
+    const double distance = std::sqrt(tree.squared_distance({middle.x(), middle.y(), middle.z()}));
+    if (distance + std::sqrt(0.75) * cube < depth) return;
+    if (cube > side) {
+      forHalved(middle, cube, add);
+    } else if (distance >= depth && winding.isInside(middle)) {
+      cells.push_back({middle, cube * cube * cube});
+    }
+  };
+  const Eigen::AlignedBox3d box = boxOf(mesh);
+  const double first = box.sizes().maxCoeff() / 16.0;
+  forCubes(box, first, [&](const Vec3& middle) { add(middle, first); });
+  return cells;
 }
 
 } // namespace massprops::testing

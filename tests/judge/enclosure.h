@@ -4,6 +4,8 @@
 
 #include "core/base/types.h"
 
+#include <vector>
+
 namespace massprops::testing {
 
 struct Enclosure {
@@ -25,5 +27,13 @@ struct Depth {
 /// fiftieth or there are too many. Nothing is looked for that is no deeper than `least`.
 /// `mesh`: any triangles; inside is as above.
 Depth depthOf(const TriangleMesh& mesh, double least);
+
+struct Cell {
+  Vec3 middle;
+  double volume; ///< length³
+};
+
+/// Cubes of at most this side whose middles are inside and at least that far from the surface.
+std::vector<Cell> cellsDeeperThan(const TriangleMesh& mesh, double depth, double side);
 
 } // namespace massprops::testing

@@ -59,5 +59,17 @@ TEST(Depth, IsNotLookedForBelowTheLeast) {
   EXPECT_LE(depth.atMost, 0.6);
 }
 
+TEST(Cells, FillWhatIsDeepEnough) {
+  constexpr double kSide = 0.05;
+  double volume = 0.0;
+  for (const Cell& cell : cellsDeeperThan(box({4.0, 2.0, 1.0}, 1), 0.2, kSide)) {
+    volume += cell.volume;
+    EXPECT_LE(std::abs(cell.middle.z()), 0.3 + 1e-12);
+  }
+  // Of a layer of cubes some stand out by half of their side, or are missing.
+  const double area = 2.0 * (3.6 * 1.6 + 3.6 * 0.6 + 1.6 * 0.6);
+  EXPECT_NEAR(volume, 3.6 * 1.6 * 0.6, 0.5 * kSide * area);
+}
+
 } // namespace
 } // namespace massprops::testing
