@@ -1,6 +1,6 @@
 #!/bin/sh
 # usage: run.sh <seconds>   fuzzes from the kept corpus, which stays as it is; going through that
-# alone takes a minute or two, and counts
+# alone takes some minutes, and counts
 #
 # A finding is left in build/sanitize/fuzz/findings; run fuzz_mesh with that file as its only
 # argument to see it again.
