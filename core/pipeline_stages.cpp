@@ -212,12 +212,17 @@ Search searchOffsets(const Preparation& model, const Foundation& foundation, con
     found.effort += result.cavity.effort;
     result.cavity = std::move(found);
   }
-  if (instead && (isOutOfReach || !keepsConstraints(result.task, result.cavity))) {
+  // A solid body that keeps them already wants nothing instead.
+  const bool isSolidEnough = inputBody(result.task).violation <= kFeasibility;
+  if (instead && !isSolidEnough &&
+      (isOutOfReach || !keepsConstraints(result.task, result.cavity))) {
     CavityTask task = taskFor(*instead, kSlantedClearance);
-    task.bound.reset(); // of another objective
+    task.bound.reset();        // of another objective
+    task.weights.volume = 0.0; // for it would be bought with the constraints
     CavityResult other = searchFor(task);
     other.effort += result.cavity.effort;
-    result.cavity = std::move(other);
+    if (isUseless(result.task, other)) other.status = CavityStatus::NoGain;
+    if (!servesBetter(result.task, result.cavity, other)) result.cavity = std::move(other);
   }
   return result;
 }

@@ -441,6 +441,33 @@ TEST(Pipeline, SaysHonestlyThatAModelCannotStand) {
   EXPECT_GT(number(result, "tip_angle_after"), number(result, "tip_angle_before"));
 }
 
+TEST(Pipeline, LeavesABodySolidThatStandsAsFirmlyAsWanted) {
+  // Heavier than the material: filled, it would stand more firmly, and weigh more.
+  Options options;
+  options.goal = GoalKind::Stand;
+  options.tippingAngle = 20.0;
+  options.fillDensity = 2.0 * options.density;
+  options.cavityShape = CavityShape::Offset;
+  const Result result = optimizeMassProperties(roundedBox({1, 1, 2}, 0.1, 6, 2), options);
+  EXPECT_TRUE(truth(result, "solved"));
+  EXPECT_GT(number(result, "tip_angle_before"), 20.0);
+  EXPECT_EQ(number(result, "mass_after"), number(result, "mass_before"));
+}
+
+TEST(Pipeline, ComesAsNearToAWantedAngleAsItCanWhateverTheVolumeWeighs) {
+  Options options;
+  options.goal = GoalKind::Stand;
+  options.tippingAngle = 60.0;
+  options.cavityShape = CavityShape::Offset;
+  const TriangleMesh body = roundedBox({1, 1, 2}, 0.1, 6, 2);
+  const Result plain = optimizeMassProperties(body, options);
+  options.weights.volume = 10.0;
+  const Result weighed = optimizeMassProperties(body, options);
+  EXPECT_FALSE(truth(weighed, "solved"));
+  EXPECT_GT(number(plain, "tip_angle_after"), number(plain, "tip_angle_before"));
+  EXPECT_EQ(number(weighed, "tip_angle_after"), number(plain, "tip_angle_after"));
+}
+
 TEST(Pipeline, LeavesAPlateSolidThatIsThinnerThanTwoWalls) {
   const Result result = optimizeMassProperties(box({1, 1, 0.01}, 8), stand());
   EXPECT_EQ(result.inner.vertices.rows(), 0);

@@ -28,8 +28,8 @@ MendedMesh withoutEmptyShells(const TriangleMesh& input, const MendingTask& /*ta
     const double area = surfaceArea(vertices, faces);
     // Two sides.
     const double thickness = 2.0 * volume / area;
-    const bool isEmpty = isClosed ? !(thickness > thinnest && volume > roundOff)
-                                  : volume < kFlat * std::pow(area, 1.5);
+    const bool isThin = !(thickness > thinnest && volume > roundOff);
+    const bool isEmpty = isThin || (!isClosed && volume < kFlat * std::pow(area, 1.5));
     if (!isEmpty) {
       kept.push_back(std::move(component.mesh));
       continue;

@@ -16,12 +16,6 @@ namespace {
 /// Above this gap another search, with other directions, is worth its time.
 constexpr double kFarFromBound = 0.02;
 
-/// A shell is asked for whatever a solid body could do.
-bool isUseless(const CavityTask& task, const CavityResult& cavity) {
-  return task.open == nullptr && cavity.status == CavityStatus::Found &&
-         !servesBetter(task, hollowBody(task, cavity), inputBody(task));
-}
-
 bool isFarFromBound(const CavityTask& task, const CavityResult& cavity) {
   // With a weight on smoothness the best body is far from the bound by intention.
   if (!task.bound || cavity.status != CavityStatus::Found || task.weights.smoothness > 0.0) {
@@ -55,6 +49,11 @@ CavityResult bestOfSearches(const CavityTask& task, const Redirected& steeper,
 }
 
 } // namespace
+
+bool isUseless(const CavityTask& task, const CavityResult& cavity) {
+  return task.open == nullptr && cavity.status == CavityStatus::Found &&
+         !servesBetter(task, hollowBody(task, cavity), inputBody(task));
+}
 
 std::optional<Filling> weakestFilling(const CavityTask& task, const CavityResult& cavity) {
   constexpr int kLevels = 48;

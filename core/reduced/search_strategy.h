@@ -21,6 +21,10 @@ using Redirected = std::function<CavityTask()>;
 CavityResult bestCavity(CavityTask& task, const Redirected& steeper,
                         const std::function<void(double)>& progress);
 
+/// Whether the solid body serves the goal at least as well; never of an open surface, of which a
+/// shell is asked for whatever a solid body could do.
+bool isUseless(const CavityTask& task, const CavityResult& cavity);
+
 /// The contents among levels all over the cavity's height with which the body serves the goal
 /// least; empty where none of them is noticeably worse than the task's own fillings.
 std::optional<Filling> weakestFilling(const CavityTask& task, const CavityResult& cavity);

@@ -311,6 +311,17 @@ TEST(EmptyShells, MayBeOpenWhereTheyAreLittle) {
   EXPECT_TRUE(sheet.done.empty());
 }
 
+TEST(EmptyShells, MayBeOpenScrapsOfAUnion) {
+  const TriangleMesh body = box({2, 2, 2}, 3);
+  // Thinner than what has a place of its own; open, but bulging.
+  const TriangleMesh scrap = shifted(
+      withoutFaces(scaled(box({1, 1, 1}), 1e-5), [](const Vec3& p) { return p.z() > 4e-6; }),
+      {1, 1, 1});
+  const MendedMesh result = withoutEmptyShells(joined(body, scrap), taskFor(body));
+  EXPECT_EQ(result.mesh.faces.rows(), body.faces.rows());
+  EXPECT_EQ(result.done, "1 component without volume left out");
+}
+
 TEST(UnitedBodies, HaveTheVolumeOfTheUnion) {
   const TriangleMesh two = joined(sphere(20), shifted(sphere(20), {1.0, 0.1, 0.2}));
   const MendedMesh result = unitedBodies(two, taskFor(two));
