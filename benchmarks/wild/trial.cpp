@@ -5,8 +5,8 @@
 #include "judge/checks.h"
 #include "judge/enclosure.h"
 #include "judge/guarantee.h"
+#include "judge/standing_gain.h"
 #include "wild/model_files.h"
-#include "wild/standing_gain.h"
 
 #include <malloc.h>
 #include <sys/resource.h>
@@ -28,7 +28,7 @@ namespace {
 constexpr double kEnclosesNothing = 1e-5;
 /// Of the wall: of rooms narrower than a wall, with what the depth is known within.
 constexpr double kNarrow = 1.5 * 1.02;
-constexpr double kSmallGain = 0.05;
+constexpr double kSmallGain = 0.05; // degrees
 
 void standOnEllipse(Options& options, double diagonal) {
   options.radiusX = options.radiusY = 0.02 * diagonal;
@@ -315,8 +315,13 @@ void tryOut(const Case& c, const Limits& limits, const std::function<void(const 
     write(trial.reason, fault);
   } else if (trial.outcome == Outcome::NothingFits) {
     trial.deepest = testing::depthOf(model, wall).atMost / wall;
-    if (c.asked->goal == GoalKind::Stand && trial.deepest > kNarrow && !trial.isTurned)
-      trial.gain = standingGain(result.outer ? *result.outer : model, wall);
+    if (c.asked->goal == GoalKind::Stand && trial.deepest > kNarrow && !trial.isTurned) {
+      const testing::StandingGain angles =
+          testing::standingGain(result.outer ? *result.outer : model, wall);
+      // Else it stands on something else.
+      if (std::abs(angles.solid - trial.before) < kSmallGain)
+        trial.gain = angles.best - angles.solid;
+    }
   }
   trial.isJudged = true;
   tell(trial);

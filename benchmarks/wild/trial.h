@@ -54,7 +54,7 @@ struct Trial {
   double before = 0.0, after = 0.0, limit = 0.0, gap = 0.0, violation = 0.0; ///< as reported
   double wall = 0.0;    ///< the least that was measured, in walls; 0: no cavity
   double deepest = 0.0; ///< where nothing fits: in walls, how deep a point may be
-  double gain = std::numeric_limits<double>::infinity(); ///< there, of standing: degrees, in cubes
+  double gain = std::numeric_limits<double>::infinity(); ///< likewise, of *Stand*, in degrees
   double volume = 0.0; ///< of the mended solid, by what the given triangles enclose; 0: unknown
   double moved = 0.0;  ///< by mending, in walls
   double cpu = 0.0, seconds = 0.0, checkSeconds = 0.0; ///< processor, wall; for checking the model
