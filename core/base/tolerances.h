@@ -19,4 +19,7 @@ constexpr double kContactHeight = 1e-4;
 /// stands on that much needs no cut.
 constexpr double kFootInradius = 0.01;
 
+/// Of the diagonal's cube: a component that encloses less is no body, but rounding.
+constexpr double kLeastVolume = 1e-12;
+
 } // namespace massprops

@@ -1,5 +1,6 @@
 #include "core/model/empty_shells.h"
 
+#include "core/base/tolerances.h"
 #include "core/base/triangle.h"
 #include "core/mesh/components.h"
 #include "core/mesh/connectivity.h"
@@ -15,7 +16,7 @@ MendedMesh withoutEmptyShells(const TriangleMesh& input, const MendingTask& /*ta
   std::vector<Submesh> components = componentMeshes(input.vertices, input.faces);
   if (components.size() < 2) return {input};
   const double thinnest = placeTolerance(input.vertices);
-  const double roundOff = 1e-12 * std::pow(diagonalOf(input.vertices), 3);
+  const double least = kLeastVolume * std::pow(diagonalOf(input.vertices), 3);
   constexpr double kFlat = 1e-3; // of a cube with this surface: 0.068
   constexpr double kLittle = 0.05;
   std::vector<TriangleMesh> kept;
@@ -28,7 +29,7 @@ MendedMesh withoutEmptyShells(const TriangleMesh& input, const MendingTask& /*ta
     const double area = surfaceArea(vertices, faces);
     // Two sides.
     const double thickness = 2.0 * volume / area;
-    const bool isThin = !(thickness > thinnest && volume > roundOff);
+    const bool isThin = !(thickness > thinnest && volume > least);
     const bool isEmpty = isThin || (!isClosed && volume < kFlat * std::pow(area, 1.5));
     if (!isEmpty) {
       kept.push_back(std::move(component.mesh));

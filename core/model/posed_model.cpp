@@ -1,6 +1,7 @@
 #include "core/model/posed_model.h"
 
 #include "core/base/tolerances.h"
+#include "core/mesh/signed_volume.h"
 
 #include <algorithm>
 #include <numeric>
@@ -38,6 +39,14 @@ void arrangeInSpace(const Solid& solid, PosedModel& posed) {
   for (Eigen::Index v = 0; v < working.rows(); ++v) {
     posed.vertices.row(v) = working.row(posed.vertexOf[static_cast<std::size_t>(v)]);
   }
+}
+
+/// Sides nearer than the grid of `snapped` may have been joined.
+void requireVolume(const PosedModel& posed) {
+  if (signedVolume(posed.vertices, posed.faces) > kLeastVolume) return;
+  throw InvalidInput(
+      "The surface encloses no volume that can be calculated with, it is thinner than "
+      "a billionth of its diagonal: open a model that is a solid body.");
 }
 
 ContactArea snappedArea(ContactArea area) {
@@ -95,6 +104,7 @@ PosedModel makePosedModel(const Solid& solid, const Options& options,
     }
   }
   arrangeInSpace(solid, posed);
+  requireVolume(posed);
   if (posed.open && options.goal == GoalKind::Float) requireDryOpenings(posed, options.waterLevel);
   posed.cavities = solid.cavities();
   posed.cavities.vertices = toWorking(posed.frame, solid.cavities().vertices);

@@ -34,8 +34,8 @@ struct PosedModel {
 };
 
 /// `foot`: the solid's, if it has been cut: it touches the ground with that alone.
-/// \throw InvalidInput when a goal that needs a contact area has none, the pivot lies far away, or
-/// an opening lies below the wished waterline
+/// \throw InvalidInput when a goal that needs a contact area has none, the pivot lies far away, an
+/// opening lies below the wished waterline, or nothing is left of a sheet in the working frame
 PosedModel makePosedModel(const Solid& solid, const Options& options,
                           const std::optional<Foot>& foot = {});
 

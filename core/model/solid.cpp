@@ -1,6 +1,7 @@
 #include "core/model/solid.h"
 
 #include "core/base/parallel.h"
+#include "core/base/tolerances.h"
 #include "core/mesh/components.h"
 #include "core/mesh/connectivity.h"
 #include "core/mesh/degenerate_faces.h"
@@ -213,11 +214,11 @@ ClosedSurface closedSurface(const TriangleMesh& input, bool closeOpenings) {
 
 std::vector<double> requireVolumes(const Points& vertices, const Components& components,
                                    double diagonal) {
-  const double roundOff = 1e-12 * std::pow(diagonal, 3);
+  const double least = kLeastVolume * std::pow(diagonal, 3);
   std::vector<double> volumes;
   for (const Faces& component : components) {
     volumes.push_back(signedVolume(vertices, component));
-    if (!(std::abs(volumes.back()) > roundOff)) {
+    if (!(std::abs(volumes.back()) > least)) {
       throw DefectiveSurface(
           "The surface, or a component of it, encloses no volume: use Cleaning and "
           "Repairing > Remove Isolated pieces (wrt Diameter), or open a model that "
