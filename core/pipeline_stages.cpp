@@ -408,25 +408,22 @@ void proveOutOfReach(const Preparation& model, const Fillings& fillings, Search&
   const std::optional<OptimalBound>& bound = found.task.bound;
   if (!bound || (bound->isReachable() && !bound->outOfReach)) return;
   const Stopwatch time;
-  const auto add = [&](std::optional<Certificate> proof) {
-    if (proof) found.certificates.push_back(std::move(*proof));
-    return proof.has_value();
-  };
-  bool isProved = true;
   if (bound->outOfReach) {
-    const HalfSpaces& set = *bound->outOfReach;
-    for (Eigen::Index i = 0; i < set.limits.size() && isProved; ++i) {
-      isProved = add(certificate(set.normals.row(i).transpose(), set.limits[i], model.solidMoments,
-                                 fillings.front(), model.surface, model.posed.wall));
-    }
+    found.certificates = certificates(*bound->outOfReach, model.solidMoments, fillings.front(),
+                                      model.surface, model.posed.wall);
   } else {
     const std::vector<LinearConditions> conditions = model.goal->conditions();
-    for (std::size_t i = 0; i < conditions.size() && isProved; ++i) {
-      isProved = add(certificate(conditions[i], model.goal->wantedLevel(), bound->levels[i],
-                                 model.solidMoments, fillings, model.surface, model.posed.wall));
+    for (std::size_t i = 0; i < conditions.size(); ++i) {
+      std::optional<Certificate> proof =
+          certificate(conditions[i], model.goal->wantedLevel(), bound->levels[i],
+                      model.solidMoments, fillings, model.surface, model.posed.wall);
+      if (!proof) {
+        found.certificates.clear();
+        break;
+      }
+      found.certificates.push_back(*std::move(proof));
     }
   }
-  if (!isProved) found.certificates.clear();
   found.secondsCertificate = time.seconds();
 }
 

@@ -14,8 +14,8 @@ enum class Wanted {
 };
 
 /// Positive: no body has less than this sum of the functionals.
-double marginOf(const Certificate& proof, const Moments& solid, const TriangleTree& surface,
-                double wall, std::size_t mostCubes, Wanted wanted = Wanted::Any) {
+double marginOf(const Certificate& proof, const Moments& solid, PositivePartBounds& hollowing,
+                std::size_t mostCubes, Wanted wanted = Wanted::Any) {
   const Eigen::Matrix<double, 11, 1> w = proof.functionals.rowwise().sum(); // of the solid
   const Eigen::Matrix<double, 11, 1> size = proof.functionals.cwiseAbs().rowwise().sum();
   const double rounding = kOutwards * (size.head<10>().dot(solid.cwiseAbs()) + size[10]);
@@ -23,13 +23,13 @@ double marginOf(const Certificate& proof, const Moments& solid, const TriangleTr
   if (ofSolid <= 0.0) return ofSolid;
   const LayeredQuadric worth = worthOfHollowing(proof.functionals, proof.fillings);
   const double enough = wanted == Wanted::Any ? ofSolid : 0.0;
-  return ofSolid - positivePartBound(worth, surface, wall, enough, mostCubes);
+  return ofSolid - hollowing.of(worth, enough, mostCubes);
 }
 
 /// The proof with its margin, if that is positive.
 std::optional<Certificate> withMargin(Certificate proof, const Moments& solid,
-                                      const TriangleTree& surface, double wall) {
-  proof.margin = marginOf(proof, solid, surface, wall, kMostCubes);
+                                      PositivePartBounds& hollowing) {
+  proof.margin = marginOf(proof, solid, hollowing, kMostCubes);
   return proof.margin > 0.0 ? std::optional(std::move(proof)) : std::nullopt;
 }
 
@@ -65,7 +65,8 @@ std::optional<Certificate> certificate(const LinearConditions& conditions, doubl
                                        const LevelBound& bound, const Moments& solid,
                                        const Fillings& fillings, const TriangleTree& surface,
                                        double wall) {
-  return withMargin(claim(conditions, wantedLevel, bound, fillings), solid, surface, wall);
+  PositivePartBounds hollowing(surface, wall);
+  return withMargin(claim(conditions, wantedLevel, bound, fillings), solid, hollowing);
 }
 
 std::optional<double> provedLevel(const LinearConditions& conditions, const LevelBound& bound,
@@ -75,9 +76,9 @@ std::optional<double> provedLevel(const LinearConditions& conditions, const Leve
   constexpr double kBeyond = 1.1, kWithin = 0.9;
   constexpr int kMostSteps = 3;
   const double slope = slopeOf(conditions, bound);
+  PositivePartBounds hollowing(surface, wall);
   const auto marginAt = [&](double level, Wanted wanted) {
-    return marginOf(claim(conditions, level, bound, fillings), solid, surface, wall, mostCubes,
-                    wanted);
+    return marginOf(claim(conditions, level, bound, fillings), solid, hollowing, mostCubes, wanted);
   };
   double level = bound.level;
   double margin = marginAt(level, Wanted::Greatest);
@@ -93,15 +94,22 @@ std::optional<double> provedLevel(const LinearConditions& conditions, const Leve
   return std::nullopt;
 }
 
-std::optional<Certificate> certificate(const Vec3& normal, double limit, const Moments& solid,
-                                       const Filling& filling, const TriangleTree& surface,
-                                       double wall) {
-  Certificate result;
-  result.fillings = {filling};
-  result.functionals.setZero(11, 1);
-  result.functionals(0, 0) = limit;
-  result.functionals.block<3, 1>(1, 0) = -normal;
-  return withMargin(std::move(result), solid, surface, wall);
+std::vector<Certificate> certificates(const HalfSpaces& set, const Moments& solid,
+                                      const Filling& filling, const TriangleTree& surface,
+                                      double wall) {
+  PositivePartBounds hollowing(surface, wall);
+  std::vector<Certificate> proofs;
+  for (Eigen::Index i = 0; i < set.limits.size(); ++i) {
+    Certificate proof;
+    proof.fillings = {filling};
+    proof.functionals.setZero(11, 1);
+    proof.functionals(0, 0) = set.limits[i];
+    proof.functionals.block<3, 1>(1, 0) = -set.normals.row(i).transpose();
+    std::optional<Certificate> proved = withMargin(std::move(proof), solid, hollowing);
+    if (!proved) return {};
+    proofs.push_back(*std::move(proved));
+  }
+  return proofs;
 }
 
 } // namespace massprops

@@ -5,10 +5,12 @@
 #include "core/optimum/layered_quadric.h"
 #include "core/optimum/level_bound.h"
 #include "core/physics/filling.h"
+#include "core/physics/half_spaces.h"
 #include "core/query/triangle_tree.h"
 
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 namespace massprops {
 
@@ -38,14 +40,16 @@ std::optional<Certificate> certificate(const LinearConditions& conditions, doubl
 /// A level that no body exceeds, proved for the multipliers of the bound and hardly above the least
 /// one that this effort proves, which is that of two proofs as a rule. It may lie below the
 /// bound's, which takes the border of what may be hollow for planes. Empty: not proved.
-/// `mostCubes`: as in `positivePartBound`.
+/// `mostCubes`: as in `PositivePartBounds`.
 std::optional<double> provedLevel(const LinearConditions& conditions, const LevelBound& bound,
                                   const Moments& solid, const Fillings& fillings,
                                   const TriangleTree& surface, double wall, std::size_t mostCubes);
 
-/// The proof that no centre of mass is outside of a half-space, w being limit m − normal·S.
-std::optional<Certificate> certificate(const Vec3& normal, double limit, const Moments& solid,
-                                       const Filling& filling, const TriangleTree& surface,
-                                       double wall);
+/// The proofs that no centre of mass is outside of any of the half-spaces, w being limit m −
+/// normal·S for each; none where one of them is not found. What a proof learns of the surface
+/// serves the next.
+std::vector<Certificate> certificates(const HalfSpaces& set, const Moments& solid,
+                                      const Filling& filling, const TriangleTree& surface,
+                                      double wall);
 
 } // namespace massprops

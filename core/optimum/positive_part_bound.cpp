@@ -18,14 +18,31 @@ constexpr int kFirstAlongASide = 16;
 /// Of what a cube at the border contributes: dividing it may tell that much, whatever the rest.
 constexpr double kLeastSlack = 0.1;
 
+/// What is known of a cube, whatever is integrated over it.
+struct Place {
+  enum class Hollow : char {
+    Unknown,   ///< nobody has asked yet
+    Nothing,   ///< none of it may be hollow
+    Anything,  ///< all of it may be
+    Something, ///< part of it may be, and no better is known
+    Beyond     ///< at most a share of it
+  };
+  Hollow hollow = Hollow::Unknown;
+  bool isInside = false;  ///< whether it is known that its centre is
+  int nearFace = -1;      ///< one that is near its centre, if any is known
+  int firstPart = -1;     ///< the first of the places of its eight parts, if they have any
+  double clearance = 0.0; ///< at most the distance of its centre from the surface
+  double share = 1.0;     ///< that may be hollow at most
+  double wished = 1.0;    ///< what that would be about if the surface were known to be a plane
+};
+
+/// A cube with what is integrated over it.
 struct Cube {
   Vec3 centre;
   double edge;
-  double upper = 0.0;    ///< of its contribution
-  double slack = 0.0;    ///< by how much that may be too large; 0: nothing to be gained by dividing
-  int nearFace = -1;     ///< one that is near its centre, if any is known
-  bool isInside = false; ///< whether it is known that its centre is
-  double clearance = 0.0; ///< at most the distance of its centre from the surface
+  int place;
+  double upper = 0.0; ///< of its contribution
+  double slack = 0.0; ///< by how much that may be too large; 0: nothing to be gained by dividing
 };
 
 /// A quadric over a box. What is linear in each coordinate lies below its values at the corners,
@@ -85,8 +102,8 @@ Bounds boundsOver(const LayeredQuadric& q, const Cube& cube) {
   return all;
 }
 
-double halfDiagonal(const Cube& cube) {
-  return 0.5 * std::sqrt(3.0) * cube.edge;
+double halfDiagonal(double edge) {
+  return 0.5 * std::sqrt(3.0) * edge;
 }
 
 /// At least the share of a cube that lies farther along a unit vector from its centre than `depth`.
@@ -98,34 +115,42 @@ double shareBeyond(const Vec3& away, double depth, double edge) {
   return cubeCut(away, depth / edge - turned - kOutwards).volume;
 }
 
-class UpperBound {
+} // namespace
+
+class PositivePartBounds::Places {
 public:
-  UpperBound(const LayeredQuadric& quadric, const TriangleTree& surface, double wall)
-      : quadric_(quadric), surface_(surface), inside_(surface), wall_(wall) {}
+  Places(const TriangleTree& surface, double wall)
+      : surface_(surface), inside_(surface), wall_(wall) {}
 
   /// Rounds of division, each of the cubes with the most to gain.
-  double refine(double enough, std::size_t mostCubes) {
+  double bound(const LayeredQuadric& q, double enough, std::size_t mostCubes) {
     std::vector<Cube> cubes = first();
+    std::vector<Cube> waiting; // that more divisions would tell more about
     std::size_t asked = 0;
     double decided = 0.0;
     while (true) {
-      evaluate(cubes);
+      evaluate(q, cubes);
       asked += cubes.size();
       double open = 0.0;
       for (const Cube& cube : cubes) (cube.slack > 0.0 ? open : decided) += cube.upper;
-      open += waitingSum();
+      for (const Cube& cube : waiting) open += cube.upper;
       const double total = (decided + open) * (1.0 + kOutwards);
       if (total <= enough || asked >= mostCubes) return total;
       for (const Cube& cube : cubes) {
-        if (cube.slack > 0.0) waiting_.push_back(cube);
+        if (cube.slack > 0.0) waiting.push_back(cube);
       }
-      if (waiting_.empty()) return total;
-      cubes = mostPromising(mostCubes - asked);
+      if (waiting.empty()) return total;
+      cubes = mostPromising(waiting, mostCubes - asked);
     }
   }
 
 private:
-  std::vector<Cube> first() const {
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+  std::vector<Cube> first() {
+    // Of 40 bytes each: what was asked for one integrand is forgotten before it fills the memory.
+    constexpr std::size_t kMostKept = 3000000;
+    if (places_.size() > kMostKept) places_.clear();
     const Vec3 low = surface_.vertices().colwise().minCoeff();
     const Vec3 high = surface_.vertices().colwise().maxCoeff();
     const double edge = (high - low).maxCoeff() / kFirstAlongASide;
@@ -134,89 +159,109 @@ private:
     for (int i = 0; i < counts.x(); ++i) {
       for (int j = 0; j < counts.y(); ++j) {
         for (int k = 0; k < counts.z(); ++k) {
-          cubes.push_back({low + edge * (Vec3(i, j, k) + Vec3::Constant(0.5)), edge});
+          cubes.push_back({low + edge * (Vec3(i, j, k) + Vec3::Constant(0.5)), edge,
+                           static_cast<int>(cubes.size())});
         }
       }
     }
+    if (places_.empty()) places_.resize(cubes.size());
     return cubes;
   }
 
-  double waitingSum() const {
-    double sum = 0.0;
-    for (const Cube& cube : waiting_) sum += cube.upper;
-    return sum;
-  }
-
   /// The parts of the cubes that hold most of the slack, about `mostParts` of them at most.
-  std::vector<Cube> mostPromising(std::size_t mostParts) {
+  std::vector<Cube> mostPromising(std::vector<Cube>& waiting, std::size_t mostParts) {
     constexpr double kMost = 0.9;
-    std::sort(waiting_.begin(), waiting_.end(),
+    std::sort(waiting.begin(), waiting.end(),
               [](const Cube& a, const Cube& b) { return a.slack < b.slack; });
     double slack = 0.0;
-    for (const Cube& cube : waiting_) slack += cube.slack;
+    for (const Cube& cube : waiting) slack += cube.slack;
     std::vector<Cube> parts;
     double taken = 0.0;
-    while (!waiting_.empty() && taken < kMost * slack && parts.size() < mostParts) {
-      const Cube cube = waiting_.back();
-      waiting_.pop_back();
-      taken += cube.slack;
-      for (int corner = 0; corner < 8; ++corner) {
-        const Vec3 step((corner & 1) != 0 ? 0.25 : -0.25, (corner & 2) != 0 ? 0.25 : -0.25,
-                        (corner & 4) != 0 ? 0.25 : -0.25);
-        Cube part{cube.centre + cube.edge * step, 0.5 * cube.edge};
-        part.nearFace = cube.nearFace;
-        part.isInside = cube.isInside;
-        part.clearance = cube.clearance - halfDiagonal(part);
-        parts.push_back(part);
-      }
+    while (!waiting.empty() && taken < kMost * slack && parts.size() < mostParts) {
+      divide(waiting.back(), parts);
+      taken += waiting.back().slack;
+      waiting.pop_back();
     }
     return parts;
   }
 
-  void evaluate(std::vector<Cube>& cubes) const {
+  /// Appends the eight parts of a cube whose place is known.
+  void divide(const Cube& cube, std::vector<Cube>& parts) {
+    if (places_[at(cube.place)].firstPart < 0) {
+      Place part;
+      part.nearFace = places_[at(cube.place)].nearFace;
+      part.isInside = places_[at(cube.place)].isInside;
+      part.clearance = places_[at(cube.place)].clearance - halfDiagonal(0.5 * cube.edge);
+      places_[at(cube.place)].firstPart = static_cast<int>(places_.size());
+      places_.insert(places_.end(), 8, part);
+    }
+    const int first = places_[at(cube.place)].firstPart;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 step((corner & 1) != 0 ? 0.25 : -0.25, (corner & 2) != 0 ? 0.25 : -0.25,
+                      (corner & 4) != 0 ? 0.25 : -0.25);
+      parts.push_back({cube.centre + cube.edge * step, 0.5 * cube.edge, first + corner});
+    }
+  }
+
+  void evaluate(const LayeredQuadric& q, std::vector<Cube>& cubes) {
     constexpr Eigen::Index kChunk = 256;
     forChunks(static_cast<Eigen::Index>(cubes.size()), kChunk, [&](const Chunk& chunk) {
       for (Eigen::Index i = chunk.begin; i < chunk.end; ++i) {
-        evaluate(cubes[static_cast<std::size_t>(i)]);
+        evaluate(q, cubes[static_cast<std::size_t>(i)]);
       }
     });
   }
 
-  void evaluate(Cube& cube) const {
-    const Bounds q = boundsOver(quadric_, cube);
+  void evaluate(const LayeredQuadric& quadric, Cube& cube) {
+    const Bounds q = boundsOver(quadric, cube);
     if (q.greatest <= 0.0) return;
-    const double half = halfDiagonal(cube);
+    Place& place = places_[at(cube.place)];
+    if (place.hollow == Place::Hollow::Unknown) lookAt(cube, place);
+    if (place.hollow == Place::Hollow::Nothing) return;
     const double volume = cube.edge * cube.edge * cube.edge;
-    const double wall = wall_ * (1.0 - kOutwards);
     cube.upper = q.meanOfPositive * volume;
     cube.slack = q.slack * volume;
-    const double far = wall_ + half;
-    if (cube.isInside && cube.clearance > far) return;
-    const TriangleTree::Hit hit = surface_.nearest(
-        cube.centre, cube.isInside ? far * far : std::numeric_limits<double>::infinity(),
-        cube.nearFace);
-    const double distance = std::sqrt(hit.squaredDistance);
-    cube.clearance = distance * (1.0 - kOutwards);
-    if (hit.face < 0) return;
-    cube.nearFace = hit.face;
-    if (!cube.isInside && cube.clearance > half) {
-      cube.isInside = inside_.contains(cube.centre, hit);
-      if (!cube.isInside) cube.upper = cube.slack = 0.0;
+    if (cube.upper == 0.0 || place.hollow == Place::Hollow::Anything) return;
+    if (place.hollow == Place::Hollow::Something) {
+      cube.slack = cube.upper;
+      return;
     }
-    if (distance * (1.0 + kOutwards) + half <= wall) cube.upper = cube.slack = 0.0;
-    if (cube.upper == 0.0 || cube.clearance >= wall + half || distance == 0.0) return;
+    const double wished = cube.upper * place.wished;
+    cube.upper = std::min(cube.upper, q.greatest * volume * (place.share + kOutwards));
+    cube.slack = place.share > 0.0 ? std::max(cube.upper - wished, kLeastSlack * cube.upper) : 0.0;
+  }
+
+  void lookAt(const Cube& cube, Place& place) const {
+    const double half = halfDiagonal(cube.edge);
+    const double wall = wall_ * (1.0 - kOutwards);
+    const double far = wall_ + half;
+    place.hollow = Place::Hollow::Anything;
+    if (place.isInside && place.clearance > far) return;
+    const TriangleTree::Hit hit = surface_.nearest(
+        cube.centre, place.isInside ? far * far : std::numeric_limits<double>::infinity(),
+        place.nearFace);
+    const double distance = std::sqrt(hit.squaredDistance);
+    place.clearance = distance * (1.0 - kOutwards);
+    if (hit.face < 0) return;
+    place.nearFace = hit.face;
+    if (!place.isInside && place.clearance > half) {
+      place.isInside = inside_.contains(cube.centre, hit);
+      if (!place.isInside) place.hollow = Place::Hollow::Nothing;
+    }
+    if (distance * (1.0 + kOutwards) + half <= wall) place.hollow = Place::Hollow::Nothing;
+    if (place.hollow == Place::Hollow::Nothing || place.clearance >= wall + half || distance == 0.0)
+      return;
     const Vec3 away = (cube.centre - hit.point) / distance;
     const double gap = witnessGap(cube, hit, away);
     const double depth = gap < wall ? std::sqrt(wall * wall - gap * gap) : -half;
     if (distance + depth <= half) { // beyond the surface the cube may be hollow again
-      cube.slack = cube.upper;
+      place.hollow = Place::Hollow::Something;
       return;
     }
     // Nothing within a wall of the witnesses is hollow.
-    const double share = shareBeyond(away, depth - distance, cube.edge);
-    const double wished = cube.upper * shareBeyond(away, wall - distance, cube.edge);
-    cube.upper = std::min(cube.upper, q.greatest * volume * (share + kOutwards));
-    cube.slack = share > 0.0 ? std::max(cube.upper - wished, kLeastSlack * cube.upper) : 0.0;
+    place.hollow = Place::Hollow::Beyond;
+    place.share = shareBeyond(away, depth - distance, cube.edge);
+    place.wished = shareBeyond(away, wall - distance, cube.edge);
   }
 
   /// How far, across the way from the nearest point to the centre, points of the cube can be from
@@ -226,7 +271,7 @@ private:
     // The corner that is least off the plane across the way is farthest from its foot.
     const Vec3 n = away.cwiseAbs();
     const double least = 0.5 * cube.edge * std::max(0.0, 2.0 * n.maxCoeff() - n.sum());
-    const double half = halfDiagonal(cube);
+    const double half = halfDiagonal(cube.edge);
     const double widest = std::sqrt(half * half - least * least);
     const auto corner = [&](int k) {
       return Vec3(surface_.vertices().row(surface_.faces()(hit.face, k % 3)).transpose());
@@ -248,18 +293,19 @@ private:
     return widest * (1.0 - std::max(0.0, reach));
   }
 
-  const LayeredQuadric& quadric_;
   const TriangleTree& surface_;
   PointInMesh inside_;
   double wall_;
-  std::vector<Cube> waiting_; ///< that more divisions would tell more about
+  std::vector<Place> places_;
 };
 
-} // namespace
+PositivePartBounds::PositivePartBounds(const TriangleTree& surface, double wall)
+    : places_(std::make_unique<Places>(surface, wall)) {}
 
-double positivePartBound(const LayeredQuadric& q, const TriangleTree& surface, double wall,
-                         double enough, std::size_t mostCubes) {
-  return UpperBound(q, surface, wall).refine(enough, mostCubes);
+PositivePartBounds::~PositivePartBounds() = default;
+
+double PositivePartBounds::of(const LayeredQuadric& q, double enough, std::size_t mostCubes) {
+  return places_->bound(q, enough, mostCubes);
 }
 
 } // namespace massprops
