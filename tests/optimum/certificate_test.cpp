@@ -127,6 +127,10 @@ TEST_F(Proof, OfALevelLiesHardlyAboveTheBest) {
   }
 }
 
+HalfSpaces halfSpace(const Vec3& normal, double limit) {
+  return {normal.transpose(), Vector::Constant(1, limit)};
+}
+
 TEST(Certificate, IsOnlyFoundForHalfSpacesThatHoldAllCentres) {
   const TriangleMesh cube = standingCube();
   const TriangleTree surface(cube.vertices, cube.faces);
@@ -137,13 +141,40 @@ TEST(Certificate, IsOnlyFoundForHalfSpacesThatHoldAllCentres) {
     lowest = std::min(lowest, (0.5 - 0.32 * (0.81 - h * h)) / (1 - 0.64 * (0.9 - h)));
   }
   for (const double beyond : {2e-3, -2e-3}) {
-    const auto proof = certificate(-Vec3::UnitZ(), -lowest + beyond, solid, {}, surface, 0.1);
-    ASSERT_EQ(proof.has_value(), beyond > 0.0);
-    if (!proof) continue;
-    EXPECT_GT(proof->margin, 0.0);
-    EXPECT_EQ(proof->functionals(3, 0), 1.0);
-    EXPECT_EQ(proof->functionals(0, 0), -lowest + beyond);
+    const auto proofs =
+        certificates(halfSpace(-Vec3::UnitZ(), -lowest + beyond), solid, {}, surface, 0.1);
+    ASSERT_EQ(proofs.size(), beyond > 0.0 ? 1U : 0U);
+    if (proofs.empty()) continue;
+    EXPECT_GT(proofs.front().margin, 0.0);
+    EXPECT_EQ(proofs.front().functionals(3, 0), 1.0);
+    EXPECT_EQ(proofs.front().functionals(0, 0), -lowest + beyond);
   }
+}
+
+TEST(Certificate, OfManyHalfSpacesIsThatOfEachAloneOrNone) {
+  const TriangleMesh cube = standingCube();
+  const TriangleTree surface(cube.vertices, cube.faces);
+  const Moments solid = moments(cube.vertices, cube.faces);
+  // No body whose walls are 0.1 has its centre of mass farther than 0.2 from the cube's middle.
+  Random random(4);
+  HalfSpaces set{Points(30, 3), Vector(30)};
+  for (Eigen::Index i = 0; i < 30; ++i) {
+    const Vec3 u = random.vector().normalized();
+    set.normals.row(i) = u.transpose();
+    set.limits[i] = u.dot(Vec3(0, 0, 0.5)) + 0.2;
+  }
+  const auto proofs = certificates(set, solid, {}, surface, 0.1);
+  ASSERT_EQ(proofs.size(), 30U);
+  for (Eigen::Index i = 0; i < 30; ++i) {
+    const Certificate& proof = proofs[static_cast<std::size_t>(i)];
+    const auto alone = certificates(halfSpace(set.normals.row(i).transpose(), set.limits[i]), solid,
+                                    {}, surface, 0.1);
+    ASSERT_EQ(alone.size(), 1U);
+    EXPECT_EQ(proof.margin, alone.front().margin);
+    EXPECT_EQ(proof.functionals, alone.front().functionals);
+  }
+  set.limits[17] -= 0.2; // through the middle, where that of the solid is
+  EXPECT_TRUE(certificates(set, solid, {}, surface, 0.1).empty());
 }
 
 /// Stands on its middle column, with a low arm to one side and a high one to the other: what is

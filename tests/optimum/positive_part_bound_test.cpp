@@ -41,7 +41,7 @@ TEST(PositivePartBound, IsCloseAboveTheIntegral) {
   const double ofSaddle = 0.8 * 2.0 / 3.0 * std::pow(0.4, 4);
   for (const auto& [quadric, exact] :
        {std::pair(one, 0.512), std::pair(upper, 0.64 * 0.08), std::pair(saddle, ofSaddle)}) {
-    const double bound = positivePartBound({{}, {quadric}}, surface, wall, 1.01 * exact);
+    const double bound = PositivePartBounds(surface, wall).of({{}, {quadric}}, 1.01 * exact);
     EXPECT_GE(bound, exact);
     EXPECT_LE(bound, 1.01 * exact);
   }
@@ -57,7 +57,7 @@ TEST(PositivePartBound, KnowsLayers) {
   x[1] = 1.0;
   const LayeredQuadric q{{1.0 / 3.0, 0.7}, {-2.0 * one, x, 3.0 * one}};
   const double exact = (0.7 - 1.0 / 3.0) * 0.8 * 0.08 + 3.0 * 0.64 * 0.2;
-  const double bound = positivePartBound(q, surface, 0.1, 1.01 * exact);
+  const double bound = PositivePartBounds(surface, 0.1).of(q, 1.01 * exact);
   EXPECT_GE(bound, exact);
   EXPECT_LE(bound, 1.01 * exact);
 }
@@ -93,7 +93,7 @@ TEST(PositivePartBound, IsAboveTheVolumeWhateverTheEffort) {
     for (const double wall : {0.003, 0.02, 0.2}) {
       const double exact = c.volume(wall);
       for (const std::size_t most : {1, 30000, 300000}) {
-        const double bound = positivePartBound({{}, {one}}, surface, wall, 0.0, most);
+        const double bound = PositivePartBounds(surface, wall).of({{}, {one}}, 0.0, most);
         EXPECT_GE(bound, exact) << c.name << ", " << wall << ", " << most;
         if (most < 300000 || wall < 0.01) continue;
         EXPECT_LE(bound, 1.02 * exact) << c.name << ", " << wall;
@@ -122,9 +122,67 @@ TEST(PositivePartBound, LeavesOutNoPlaceThatMayBeHollow) {
       Moments q = Moments::Zero();
       q << kRadius * kRadius - c.squaredNorm(), 2.0 * c, -1.0, -1.0, -1.0, 0.0, 0.0, 0.0;
       for (const std::size_t most : {1, 5000}) {
-        EXPECT_GE(positivePartBound({{}, {q}}, surface, kWall, 0.0, most), exact)
+        EXPECT_GE(PositivePartBounds(surface, kWall).of({{}, {q}}, 0.0, most), exact)
             << c.transpose() << ", " << most;
       }
+    }
+  }
+}
+
+/// Of u·x − t, the sum over the middles of small cubes that keep the wall, less what half a cube
+/// may be off.
+double leastSum(const Vec3& u, double t, const TriangleTree& surface, double wall) {
+  constexpr int kAlong = 40;
+  const PointInMesh inside(surface);
+  const Vec3 size = surface.upper() - surface.lower();
+  const Vec3 step = size / kAlong;
+  double sum = 0.0;
+  for (int i = 0; i < kAlong * kAlong * kAlong; ++i) {
+    const Vec3 place(i % kAlong, i / kAlong % kAlong, i / kAlong / kAlong);
+    const Vec3 x = surface.lower() + step.cwiseProduct(place + Vec3::Constant(0.5));
+    const double worth = u.dot(x) - t - 0.5 * u.cwiseAbs().dot(step);
+    const double distance = std::sqrt(surface.nearest(x).squaredDistance);
+    const bool isWhole = distance > wall + 0.5 * step.norm() && inside.contains(x);
+    if (worth > 0.0 && isWhole) sum += worth * step.prod();
+  }
+  return sum;
+}
+
+TEST(PositivePartBounds, AreThoseOfEachAloneWhateverWasAskedBefore) {
+  const double wall = 0.03;
+  for (const TriangleMesh& shape : {bend(3), blob(8)}) {
+    const TriangleMesh mesh = transformed(shape, someRotation());
+    const TriangleTree surface(mesh.vertices, mesh.faces);
+    const Vec3 middle = 0.5 * (surface.lower() + surface.upper());
+    PositivePartBounds many(surface, wall);
+    Random random(11);
+    for (int i = 0; i < 40; ++i) {
+      const Vec3 u = random.vector().normalized();
+      const double t = u.dot(middle) + 0.1 * random();
+      Moments plane = Moments::Zero();
+      plane.head<4>() << -t, u;
+      const std::size_t most = i % 2 == 0 ? 3000 : 30000;
+      const double bound = many.of({{}, {plane}}, 0.0, most);
+      EXPECT_EQ(bound, PositivePartBounds(surface, wall).of({{}, {plane}}, 0.0, most)) << i;
+      EXPECT_GE(bound, leastSum(u, t, surface, wall)) << i;
+    }
+  }
+}
+
+TEST(PositivePartBounds, ShareTheirCubesWithQuadricsAndLayers) {
+  const TriangleMesh cube = standingCube();
+  const TriangleTree surface(cube.vertices, cube.faces);
+  Moments one = Moments::Zero();
+  one[0] = 1.0;
+  Moments saddle = Moments::Zero();
+  saddle[0] = -0.25;
+  saddle[3] = saddle[4] = 1.0;
+  saddle[6] = -1.0;
+  const LayeredQuadric all[] = {{{}, {saddle}}, {{0.4}, {one, -1.0 * one}}, {{}, {one}}};
+  PositivePartBounds many(surface, 0.1);
+  for (int round = 0; round < 2; ++round) {
+    for (const LayeredQuadric& q : all) {
+      EXPECT_EQ(many.of(q, 0.0, 20000), PositivePartBounds(surface, 0.1).of(q, 0.0, 20000));
     }
   }
 }
