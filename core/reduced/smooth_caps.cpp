@@ -3,6 +3,7 @@
 #include "core/base/tolerances.h"
 #include "core/base/triangle.h"
 #include "core/contour/wall_keeping.h"
+#include "core/goals/objective.h"
 #include "core/mesh/components.h"
 #include "core/mesh/hole_filling.h"
 #include "core/mesh/signed_volume.h"
@@ -91,6 +92,12 @@ private:
     CavityResult result;
   };
 
+  /// Of what the goal gains.
+  struct Loss {
+    double is;
+    double most; ///< that smooth ends may cost
+  };
+
   const TriangleTree& outer() const { return moved_ ? *moved_ : task_.surface; }
   Capped opened() const;
   std::optional<Stretched> stretched(Capped capped) const;
@@ -102,6 +109,9 @@ private:
   bool keepsVolume(const CavityResult& result) const;
   bool isWorthIt(const CavityResult& result) const;
   bool giveUp(const CavityResult& result, const std::vector<int>& end);
+  Loss lossOf(const Body& before, const Body& after) const;
+  Body bodyWith(const Moments& cavity) const;
+  void giveUpCostliest(const CavityResult& result, const std::vector<int>& end);
 
   const CavityTask& task_;
   const CavityResult& found_;
@@ -128,7 +138,7 @@ Capping::Capping(const CavityTask& task, const CavityResult& found)
       isSmooth_(at(ends_.count), 1) {}
 
 CavityResult Capping::run() {
-  constexpr int kAttempts = 4;
+  constexpr int kAttempts = 6;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     if (std::find(isSmooth_.begin(), isSmooth_.end(), 1) == isSmooth_.end()) break;
     const Capped rough = opened();
@@ -136,8 +146,12 @@ CavityResult Capping::run() {
     if (!result) break;
     result->inspection = inspect(result->inner, result->cavity.faces, outer(), task_.wall, false,
                                  LookFirst::ForAll, found_.clearance.get());
-    if (result->inspection.isClean()) return isWorthIt(*result) ? *result : found_;
-    if (!giveUp(*result, rough.end)) break;
+    if (result->inspection.isClean()) {
+      if (isWorthIt(*result)) return *result;
+      giveUpCostliest(*result, rough.end);
+    } else if (!giveUp(*result, rough.end)) {
+      break;
+    }
   }
   return found_;
 }
@@ -304,21 +318,75 @@ bool Capping::keepsVolume(const CavityResult& result) const {
          volume <= greatestVolume(task_);
 }
 
+Capping::Loss Capping::lossOf(const Body& before, const Body& after) const {
+  const Body solid = inputBody(task_);
+  if (before.measure && after.measure && solid.measure) {
+    const double most = kMostLoss * std::abs(*before.measure - *solid.measure);
+    const double beyond = *before.measure - task_.goal.wantedLevel();
+    return {*before.measure - *after.measure, beyond >= 0.0 ? std::min(most, beyond) : most};
+  }
+  return {after.objective - before.objective,
+          kMostLoss * std::abs(solid.objective - before.objective)};
+}
+
 bool Capping::isWorthIt(const CavityResult& result) const {
   if (!keepsVolume(result)) return false;
-  const Body solid = inputBody(task_);
   const Body before = hollowBody(task_, found_);
   const Body after = hollowBody(task_, result);
   if (task_.weights.constraints > 0.0 && after.violation > std::max(kFeasibility, before.violation))
     return false;
-  if (before.measure && after.measure && solid.measure) {
-    const double wanted = task_.goal.wantedLevel();
-    return (*after.measure >= wanted || *before.measure < wanted) &&
-           *before.measure - *after.measure <=
-               kMostLoss * std::abs(*before.measure - *solid.measure);
+  const Loss loss = lossOf(before, after);
+  return loss.is <= loss.most;
+}
+
+/// Without contents up to a level, which ends are not told apart by.
+Body Capping::bodyWith(const Moments& cavity) const {
+  const Goal& goal = movedGoal_ ? *movedGoal_ : task_.goal;
+  std::vector<Moments> states;
+  for (const Filling& filling : task_.model.fillings) {
+    if (!filling.isPartial()) states.emplace_back(outerMass_ - (1.0 - filling.density) * cavity);
   }
-  return after.objective - before.objective <=
-         kMostLoss * std::abs(solid.objective - before.objective);
+  Body body;
+  body.objective = momentObjective(goal, task_.weights, states,
+                                   (outerMass_[0] - cavity[0]) / task_.model.solidMoments[0]);
+  body.measure = measure(goal, states);
+  return body;
+}
+
+/// The ends that cost least keep their caps, as many as may be if each costs what it would alone;
+/// the costliest stays as it was. Where the volume is too large that is what counts.
+void Capping::giveUpCostliest(const CavityResult& result, const std::vector<int>& end) {
+  const Faces& before = found_.cavity.faces;
+  const Moments cavity = moments(found_.inner, before);
+  const Body body = bodyWith(cavity);
+  const bool keeps = keepsVolume(result);
+  Points both(result.inner.rows() + n_, 3);
+  both << result.inner, found_.inner.topRows(n_);
+  const auto first = static_cast<int>(result.inner.rows());
+  std::vector<std::pair<double, int>> costs;
+  for (int number = 0; number < ends_.count; ++number) {
+    if (isSmooth_[at(number)] == 0) continue;
+    const auto isAt = [&](const Faces& faces, Eigen::Index f) {
+      return std::any_of(faces.row(f).begin(), faces.row(f).end(),
+                         [&](int v) { return end[at(v)] == number; });
+    };
+    // What lies between the two surfaces there.
+    const Faces now = facesWhere(result.cavity.faces,
+                                 [&](Eigen::Index f) { return isAt(result.cavity.faces, f); });
+    Faces was = facesWhere(before, [&](Eigen::Index f) { return isAt(before, f); });
+    was.col(1).swap(was.col(2));
+    was.array() += first;
+    const Moments change = moments(both, joined({now, was}));
+    const double cost = keeps ? lossOf(body, bodyWith(cavity + change)).is : change[0];
+    costs.emplace_back(cost, number);
+  }
+  std::sort(costs.begin(), costs.end());
+  double left = keeps ? lossOf(body, body).most : 0.0;
+  for (std::size_t i = 0; i < costs.size(); ++i) {
+    left -= costs[i].first;
+    const bool isCostliest = i + 1 == costs.size();
+    if (isCostliest || left < 0.0) isSmooth_[at(costs[i].second)] = 0;
+  }
 }
 
 /// Ends at which something is wrong stay as they were. False where it is wrong elsewhere.
