@@ -10,8 +10,7 @@ namespace massprops {
 /// skins under tension, as stiff as serves the goal best; then the offsets are adjusted until the
 /// constraints hold again. An end whose cap does not pass inspection stays as it was, and so do
 /// the ends that cost the goal most where all caps together would cost it noticeably or exceed
-/// `greatestVolume`; all do where nothing else helps. \pre the cavity
-/// passed inspection
+/// `greatestVolume`; all do where nothing else helps. \pre the cavity passed inspection
 CavityResult withSmoothCaps(const CavityTask& task, const CavityResult& found);
 
 } // namespace massprops

@@ -54,5 +54,24 @@ INSTANTIATE_TEST_SUITE_P(Samples, SmoothCaps,
                                            End{"bath_duck", GoalKind::Float, 0.003},
                                            End{"hanging_fish", GoalKind::Hang, 0.01}));
 
+// The cavity of this body has ends that keep it in balance and ends that cost nothing.
+TEST(SmoothCapsOfAPolycube, CloseTheEndsThatCostLittleWhereOthersStayRough) {
+  const TriangleMesh body =
+      polycube({{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 2, 0}, {0, 3, 0}, {1, 0, 0}, {1, 1, 0}}, 5);
+  Options options;
+  options.cavityShape = CavityShape::Offset;
+  const double wall =
+      0.01 * (body.vertices.colwise().maxCoeff() - body.vertices.colwise().minCoeff()).norm();
+  options.innerLowerBound = wall;
+  const Result result = optimizeMassProperties(body, options);
+  ASSERT_GT(result.inner.faces.rows(), 0);
+  // The body's own edges turn by 90°; with all ends rough it is 0.102 of them.
+  EXPECT_LT(shareOfSharpEdges(result.inner, 60.0), 0.098);
+  EXPECT_LT(std::get<double>(result.report.at("gap_to_limit")), 0.025);
+  EXPECT_TRUE(isClosedAndOriented(result.inner));
+  EXPECT_EQ(intersectingPairs(result.inner), 0U);
+  EXPECT_GE(separation(result.inner, body).least, wall);
+}
+
 } // namespace
 } // namespace massprops::testing
