@@ -110,7 +110,7 @@ private:
       const Polished polished =
           polish(task_, quadric_, Moving::CutAlone, edge_, held, candidate.contour);
       evaluations_ += polished.evaluations;
-      if (polished.violation <= kFeasibility) break;
+      if (polished.violation <= kFeasibility && !polished.isFarthest) break;
     }
     candidate.result = resultOf(task_, candidate.contour.mesh);
   }

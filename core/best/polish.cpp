@@ -55,7 +55,7 @@ Polished polish(const CavityTask& task, const LayeredQuadric& quadric, Moving mo
   } else {
     moveSoundly(vertices, contour.mesh.faces, contour.mesh.vertices);
   }
-  return {done.evaluations, done.violation};
+  return {done.evaluations, done.violation, done.isFarthest};
 }
 
 } // namespace massprops

@@ -13,8 +13,9 @@ namespace massprops {
 enum class Moving { CutAndCreases, CutAlone };
 
 struct Polished {
-  int evaluations = 0;    ///< of the body
-  double violation = 0.0; ///< largest of the goal's constraints; 0 where no vertex could move
+  int evaluations = 0;     ///< of the body
+  double violation = 0.0;  ///< largest of the goal's constraints; 0 where no vertex could move
+  bool isFarthest = false; ///< going on from there may help
 };
 
 /// Moves the vertices on the quadric as another quadric near it would have them, so that the body

@@ -106,10 +106,22 @@ Displaced displace(const DisplacementTask& task, Points& vertices) {
   options.feasibility = 0.1 * kFeasibility; // rounding needs the rest
   options.range = 1.0 / kUnit;
   options.maxEvaluations = 40;
-  const MinimizeResult result =
-      minimize(evaluateAt, Vector::Zero(levels ? count + 1 : count), options);
+  MinimizeResult result;
+  int evaluations = 0;
+  // From where very many conditions are as good as active, as on a round contact area, SLSQP may
+  // not take a step; from below them it does.
+  constexpr double kBelow = 5.0;
+  for (const double below : {0.0, kBelow}) {
+    Vector from = Vector::Zero(levels ? count + 1 : count);
+    if (levels) from[count] = -below;
+    result = minimize(evaluateAt, from, options);
+    evaluations += result.evaluations;
+    if (!levels || !result.x.head(count).isZero(0.0)) break;
+  }
   vertices = displaced(result.x.head(count));
-  return {result.evaluations, levels ? 0.0 : result.violation};
+  constexpr double kNearly = 0.99;
+  const bool isFarthest = result.x.head(count).cwiseAbs().maxCoeff() >= kNearly * options.range;
+  return {evaluations, levels ? 0.0 : result.violation, isFarthest};
 }
 
 } // namespace massprops

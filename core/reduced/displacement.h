@@ -24,8 +24,9 @@ struct DisplacementTask {
 };
 
 struct Displaced {
-  int evaluations = 0;    ///< of the body
-  double violation = 0.0; ///< largest of the goal's constraints; 0 where no vertex could move
+  int evaluations = 0;     ///< of the body
+  double violation = 0.0;  ///< largest of the goal's constraints; 0 where no vertex could move
+  bool isFarthest = false; ///< some function is as large as it may be: going on from there may help
 };
 
 /// Displaces `vertices` along the directions so that the goal's constraints hold and its objective

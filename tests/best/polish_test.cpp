@@ -3,6 +3,7 @@
 
 #include "core/base/triangle.h"
 #include "core/contour/cavity_contour.h"
+#include "core/pipeline.h"
 #include "core/query/self_intersection.h"
 #include "shapes.h"
 
@@ -100,6 +101,29 @@ TEST(Polish, LeavesWhatIsHeldWhereItIs) {
     moved += static_cast<int>(!stays);
   }
   EXPECT_GT(moved, 20);
+}
+
+// A round foot of 115 sides: as many directions to fall in, all nearly as easy.
+TEST(Polish, FindsAWayWhereVeryManyConditionsAreAllButActive) {
+  constexpr double kFoot = 30.0;
+  constexpr double kHeight = 5.0;
+  constexpr double kHub = 8.0;
+  constexpr double kBeside = 0.3; // the hub
+  std::vector<Vec2> profile = {
+      {0.0, kHeight + kHub}, {kHub / 2, kHeight + kHub}, {kHub, kHeight + kHub}};
+  constexpr int kRings = 5;
+  for (int i = 0; i <= kRings; ++i)
+    profile.emplace_back(kHub + (kFoot - kHub) * i / kRings, kHeight);
+  for (int i = kRings; i > 0; --i) profile.emplace_back(kFoot * i / kRings, 0.0);
+  profile.emplace_back(0.0, 0.0);
+  TriangleMesh disc = revolved(profile, 115);
+  for (auto vertex : disc.vertices.rowwise()) {
+    if (vertex.z() > kHeight) vertex.x() += kBeside;
+  }
+  Options options;
+  options.cavityShape = CavityShape::BestPossible;
+  const Report report = optimizeMassProperties(disc, options).report;
+  EXPECT_LE(std::get<double>(report.at("gap_to_limit")), 0.01);
 }
 
 } // namespace
