@@ -43,7 +43,9 @@ def hollow(model, target, parameters):
         return {"refused": " ".join(str(refusal).split()) or type(refusal).__name__}
     solid = result.solid
     unfinished = f"{target}.part.stl"
-    meshio.Mesh(solid.vertices.astype(np.float32), [("triangle", solid.faces)]).write(unfinished)
+    # As text, which is meshio's default, writing takes up to a fifth of the time.
+    mesh = meshio.Mesh(solid.vertices.astype(np.float32), [("triangle", solid.faces)])
+    mesh.write(unfinished, binary=True)
     os.replace(unfinished, f"{target}.stl")
     return {key: getattr(value, "tolist", lambda value=value: value)()
             for key, value in result.report.items()}
