@@ -118,6 +118,7 @@ Displaced displace(const DisplacementTask& task, Points& vertices) {
     evaluations += result.evaluations;
     if (!levels || !result.x.head(count).isZero(0.0)) break;
   }
+  if (levels && result.x[count] <= 0.0) result.x.setZero(); // no higher than it was
   vertices = displaced(result.x.head(count));
   constexpr double kNearly = 0.99;
   const bool isFarthest = result.x.head(count).cwiseAbs().maxCoeff() >= kNearly * options.range;
