@@ -253,6 +253,9 @@ Rows printRows() {
       number("drain_diameter", "Drain hole diameter", "mm", &Options::drainDiameter,
              "Of the narrowest part of a hole, model units read as mm. Guides for resin and powder "
              "ask for 3.5."),
+      number("overhang_angle", "Overhang angle", "\u00b0", &Options::overhangAngle,
+             "The cavity's ceiling is nowhere flatter than this against the horizontal in the "
+             "printer, so that it prints without support: 45 is usual. 0: as flat as it comes."),
       {"print_file",
        ParameterKind::File,
        std::string(),

@@ -4,6 +4,7 @@
 #include "core/answer/hollowing_report.h"
 #include "core/answer/host_rounding.h"
 #include "core/answer/skeleton_marks.h"
+#include "core/base/angles.h"
 #include "core/base/option_pairs.h"
 #include "core/base/parallel.h"
 #include "core/base/tolerances.h"
@@ -143,7 +144,9 @@ bool keepsConstraints(const CavityTask& task, const CavityResult& cavity) {
 
 /// Whether the outer surface is moved inwards to find a cavity.
 bool movesInwards(const Preparation& model, const Options& options) {
-  return options.cavityShape != CavityShape::BestPossible || moves(options) || model.posed.open;
+  const bool isWanted =
+      options.cavityShape != CavityShape::BestPossible && options.overhangAngle == 0.0;
+  return isWanted || moves(options) || model.posed.open;
 }
 
 /// From this share of what is possible on it is worth looking for more.
@@ -243,9 +246,22 @@ Fillings statesOfLimit(const TriangleTree& surface, double edge, Fillings states
   return states;
 }
 
+/// Working frame.
+OverhangWishes overhangWishes(const PosedModel& posed, const Options& options) {
+  constexpr double kMore = 5.0; // degrees
+  OverhangWishes wishes;
+  wishes.toPrint = rotationToUp(buildAxisOf(options)) * posed.frame.rotation.transpose();
+  wishes.leastAngle = options.overhangAngle / kDegrees;
+  wishes.angle = (options.overhangAngle + kMore) / kDegrees;
+  wishes.bridge = kBridge / posed.frame.length;
+  wishes.tipDepth = kTipDepth / posed.frame.length;
+  return wishes;
+}
+
 /// Empty: the wall leaves no room. `solid`: moments of the body within the surface.
 std::optional<Possible> possibleWithin(const TriangleTree& surface, double wall, const Goal& goal,
-                                       const Moments& solid, const Options& options) {
+                                       const Moments& solid, const OverhangWishes& wishes,
+                                       const Options& options) {
   const RegionParts behindWalls = resolvedParts(surface, wall);
   const AdmissibleCells cells = cellsOf(behindWalls);
   if (cells.rows() == 0) return std::nullopt;
@@ -256,13 +272,18 @@ std::optional<Possible> possibleWithin(const TriangleTree& surface, double wall,
   const AdmissibleCells wide = cellsOf(partsWithin(deliverable, behindWalls));
   if (wide.col(0).sum() < cells.col(0).sum())
     bound = withBodyWithin(wide, std::move(bound), goal, weights, solid, states);
-  return Possible{cells, std::move(bound), std::move(deliverable), std::move(states)};
+  Possible result{cells, std::move(bound), std::move(deliverable), std::move(states)};
+  if (options.overhangAngle > 0.0)
+    result.printable.emplace(printable(goal, weights, solid, result.states, behindWalls,
+                                       result.deliverable, result.bound, wishes));
+  return result;
 }
 
 /// Why the best possible cavity is worth looking for; empty: it is not.
 std::string reasonForBestPossible(const Options& options, const OptimalBound& bound,
                                   const Search& found) {
   if (options.cavityShape == CavityShape::BestPossible) return "as asked for";
+  if (options.overhangAngle > 0.0) return "ceilings of offset surfaces do not carry themselves";
   const auto percent = [](double share) { return toString(std::round(1000.0 * share) / 10.0); };
   if (found.offsetsAtMost) {
     return "no offset surface was looked for, for it would leave at least " +
@@ -330,7 +351,7 @@ void considerBestPossible(const Preparation& model, const Foundation& foundation
                      : nullptr;
   const std::optional<Possible> possibleInMoved =
       moved ? possibleWithin(moved->surface, model.posed.wall, moved->goal(found.task),
-                             moved->solidMoments, options)
+                             moved->solidMoments, {}, options)
             : std::nullopt;
   const std::optional<Possible>& possible = moved ? possibleInMoved : foundation.possible;
   if (!possible) {
@@ -350,11 +371,13 @@ void considerBestPossible(const Preparation& model, const Foundation& foundation
     best.outer = moved->surface.vertices();
     best.outerOffsets = found.cavity.outerOffsets;
   } else {
-    best = bestPossibleCavity(found.task, possible->deliverable);
+    CavityTask task = found.task;
+    if (possible->printable) task.bound = possible->printable->bound;
+    best = bestPossibleCavity(task, possible->printable ? possible->printable->set
+                                                        : possible->deliverable);
   }
   best.effort += found.cavity.effort;
-  if ((options.cavityShape != CavityShape::BestPossible || hasMoved) &&
-      !servesBetter(found.task, best, found.cavity)) {
+  if ((movesInwards(model, options) || hasMoved) && !servesBetter(found.task, best, found.cavity)) {
     found.shapeReason = "the best possible cavity's triangles serve no better";
     // It sees room where no offset surface has any.
     if (found.cavity.status == CavityStatus::NoRoom && best.status == CavityStatus::NoGain)
@@ -484,7 +507,8 @@ Foundation coarsen(const Preparation& model, const Options& options, ProgressBar
     if (moves(options) || model.posed.open) return;
     const Stopwatch time;
     std::optional<Possible> possible =
-        possibleWithin(model.surface, model.posed.wall, *model.goal, model.solidMoments, options);
+        possibleWithin(model.surface, model.posed.wall, *model.goal, model.solidMoments,
+                       overhangWishes(model.posed, options), options);
     if (possible) result.possible.emplace(std::move(*possible));
     result.secondsBound = time.seconds();
   };
@@ -592,6 +616,11 @@ Report report(const Preparation& model, const Foundation& foundation, const Sear
                                TriangleTree::Order::Spatial);
     stages.leastWall = leastDistance(model.posed, found.cavity, surface);
     stages.solidDepth = leastDistance(model.posed, found.cavity, *model.keptSolidTree);
+  }
+  if (options.overhangAngle > 0.0 && found.cavity.status == CavityStatus::Found) {
+    const OverhangWishes wishes = overhangWishes(model.posed, options);
+    stages.ceiling = ceilingOf({found.cavity.inner, found.cavity.cavity.faces}, wishes.toPrint,
+                               wishes.leastAngle, wishes.tipDepth);
   }
   stages.skeletonFailures = coarse.skeleton.failedComponents;
   stages.largestWall = found.largestWall;

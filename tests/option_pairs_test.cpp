@@ -70,6 +70,8 @@ const std::vector<Wish>& wishes() {
          o.drainHoles = 1;
          o.drainDiameter = 2.0;
        }},
+      {"offset surface", [](Options& o) { o.cavityShape = CavityShape::Offset; }},
+      {"overhang_angle", [](Options& o) { o.overhangAngle = 45.0; }},
   };
   return all;
 }
@@ -77,12 +79,21 @@ const std::vector<Wish>& wishes() {
 /// By the places in the list.
 const std::vector<std::pair<std::string, std::string>>& refused() {
   static const std::vector<std::pair<std::string, std::string>> pairs = {
-      {"surface", "outer_upper_bound"},  {"surface", "best possible cavity"},
-      {"surface", "cavity_infill"},      {"outer_upper_bound", "keep_selected_solid"},
-      {"fill_density", "cavity_infill"}, {"Stand empty and filled", "cavity_infill"},
-      {"surface", "drain_holes"},        {"Stand empty and filled", "drain_holes"},
-      {"fill_density", "drain_holes"},   {"cavity_infill", "drain_holes"},
+      {"surface", "outer_upper_bound"},
+      {"surface", "best possible cavity"},
+      {"surface", "cavity_infill"},
+      {"outer_upper_bound", "keep_selected_solid"},
+      {"fill_density", "cavity_infill"},
+      {"Stand empty and filled", "cavity_infill"},
+      {"surface", "drain_holes"},
+      {"Stand empty and filled", "drain_holes"},
+      {"fill_density", "drain_holes"},
+      {"cavity_infill", "drain_holes"},
       {"print_file", "drain_holes"},
+      {"surface", "overhang_angle"},
+      {"outer_upper_bound", "overhang_angle"},
+      {"cavity_infill", "overhang_angle"},
+      {"offset surface", "overhang_angle"},
   };
   return pairs;
 }

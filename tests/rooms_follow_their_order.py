@@ -6,7 +6,7 @@ import pathlib
 import re
 import sys
 
-ROOMS = ["base", "mesh", "query", "model", "physics", "goals", "check", "optimum", "contour", "reduced", "best", "drill", "answer", "print"]
+ROOMS = ["base", "mesh", "query", "model", "physics", "goals", "check", "optimum", "contour", "overhang", "reduced", "best", "drill", "answer", "print"]
 INCLUDE = re.compile(r'^\s*#\s*include\s*"core/([^"]+)"', re.MULTILINE)
 
 

@@ -186,6 +186,26 @@ std::string message(const CavityTask& task, const Verdicts& verdicts, const Cavi
          outlook(task, verdicts.before, isProved);
 }
 
+bool carriesItself(const PosedModel& posed, const Stages& stages) {
+  return !stages.ceiling || (stages.ceiling->tips.empty() &&
+                             stages.ceiling->widestSpan * posed.frame.length <= kBridge);
+}
+
+/// What of the ceiling does not carry itself, after a space.
+std::string aboutCeiling(const PosedModel& posed, const Stages& stages) {
+  if (carriesItself(posed, stages)) return "";
+  std::string words = " The cavity does not print without support inside:";
+  if (!stages.ceiling->tips.empty())
+    words += " its ceiling hangs down into it in " + std::to_string(stages.ceiling->tips.size()) +
+             (stages.ceiling->tips.size() > 1 ? " places" : " place");
+  const double span = stages.ceiling->widestSpan * posed.frame.length;
+  if (span > kBridge) {
+    words += std::string(!stages.ceiling->tips.empty() ? ", and" : "") + " spans of " +
+             toString(span) + " mm are flatter than overhang_angle, more than can be bridged";
+  }
+  return words + ": lower overhang_angle, or turn the print with build_axis.";
+}
+
 /// All digits, with spaces between.
 std::string inDigits(const Vector& values) {
   std::ostringstream text;
@@ -358,14 +378,16 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Ve
   Report report;
   report.add("goal", goalNames()[static_cast<std::size_t>(options.goal)]);
   const bool isSolved = after.violation <= kFeasibility && verdicts.after.isReached(after.mass) &&
-                        servesDrained(verdicts.after, after, stages, options);
+                        servesDrained(verdicts.after, after, stages, options) &&
+                        carriesItself(posed, stages);
   report.add("solved", isSolved);
   report.add("message",
              (stages.repairs.warning.empty() ? "" : stages.repairs.warning + " ") +
                  message(task, verdicts, cavity, before, after,
                          stages.largestWall * posed.frame.length, !stages.certificates.empty()) +
                  aboutDrainage(posed, verdicts.after, after, stages, options) +
-                 remark(verdicts.after, after.mass) + footInWords(posed, isSolved) +
+                 aboutCeiling(posed, stages) + remark(verdicts.after, after.mass) +
+                 footInWords(posed, isSolved) +
                  adviceOnRounding(stages.rounding, task.wall * posed.frame.length));
   const std::string units = unitsInWords(posed.frame.length);
   if (!units.empty()) report.add("units", units);
@@ -401,6 +423,10 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Ve
   report.add("min_wall", hasCavity ? leastWall * posed.frame.length : 0.0);
   if (hasCavity && stages.solidDepth) {
     report.add("solid_depth", *stages.solidDepth * posed.frame.length);
+  }
+  if (stages.ceiling) {
+    report.add("ceiling_span", stages.ceiling->widestSpan * posed.frame.length);
+    report.add("ceiling_tips", static_cast<int>(stages.ceiling->tips.size()));
   }
   report.add("rounding_step", stages.rounding);
   report.add("cavity_components", hollow ? cavity.inspection.components : 0);

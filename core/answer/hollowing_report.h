@@ -8,6 +8,7 @@
 #include "core/model/posed_model.h"
 #include "core/model/repair.h"
 #include "core/optimum/certificate.h"
+#include "core/overhang/ceiling.h"
 #include "core/reduced/cavity_search.h"
 
 #include <optional>
@@ -26,6 +27,8 @@ struct Stages {
   std::optional<double> leastWall, solidDepth;
   double largestWall = 0.0;           ///< working length; of use when there is no room for a cavity
   const Drainage* drainage = nullptr; ///< null: no holes are asked for, or there is no cavity
+  /// Of the cavity, working lengths; empty where ceilings need not carry themselves.
+  std::optional<Ceiling> ceiling;
   double rounding = 0.0; ///< length: the step between coordinates that the caller can store
   std::optional<PrintMargins> margins; ///< where the goal is reached
   /// Of all the goal's conditions, where it is missed and that no cavity can reach it was proved.

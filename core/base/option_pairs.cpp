@@ -11,6 +11,10 @@ bool drains(const Options& options) {
   return options.drainHoles > 0;
 }
 
+bool overhangs(const Options& options) {
+  return options.overhangAngle > 0.0;
+}
+
 bool hasInfill(const Options& options) {
   return options.cavityInfill > 0.0;
 }
@@ -52,6 +56,18 @@ const std::vector<RefusedPair>& refusedPairs() {
       {[](const Options& o, bool) { return drains(o) && hasInfill(o); },
        "A cavity that is printed as infill needs no drain holes: set drain_holes or cavity_infill "
        "to 0."},
+      {[](const Options& o, bool) { return overhangs(o) && hasInfill(o); },
+       "Infill carries the ceiling of its cavity: set overhang_angle or cavity_infill to 0."},
+      {[](const Options& o, bool) { return overhangs(o) && o.cavityShape == CavityShape::Offset; },
+       "The ceilings of an offset surface do not carry themselves: set cavity_shape to Automatic "
+       "or "
+       "Best possible, or overhang_angle to 0."},
+      {[](const Options& o, bool isOpen) { return isOpen && overhangs(o); },
+       "The cavity of an open surface has no ceiling to be carried: set overhang_angle to 0, or "
+       "close the surface with Remeshing > Close Holes."},
+      {[](const Options& o, bool) { return overhangs(o) && moves(o); },
+       "Ceilings carry themselves only where the outer surface stays where it is: set "
+       "outer_lower_bound and outer_upper_bound to 0, or overhang_angle to 0."},
       {[](const Options& o, bool) { return drains(o) && !o.printFile.empty(); },
        "print_file is a project for filament, whose cavities need no drain holes: set drain_holes "
        "to 0, or leave print_file empty and export the drilled body."},

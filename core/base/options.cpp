@@ -45,6 +45,10 @@ void requireSensibleWishes(const Options& options) {
   require(options.tippingAngle >= 0.0 && options.tippingAngle < 90.0,
           "tipping_angle must be 0 (as hard to tip over as possible) or an angle below 90 degrees; "
           "10 suits most models.");
+  constexpr double kSteepest = 80.0;
+  require(options.overhangAngle >= 0.0 && options.overhangAngle <= kSteepest,
+          "overhang_angle must be 0 (the cavity's ceiling may be flat) or an angle up to 80 "
+          "degrees; 45 suits most printers.");
 }
 
 void requireSensibleHoles(const Options& options, double diagonal) {

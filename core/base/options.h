@@ -103,6 +103,9 @@ struct Options {
   /// Whether the result brings a picture of the answer.
   bool showAnswer = false;
   BuildAxis buildAxis = BuildAxis::AsUsed; ///< what is printed is turned so that this one is up
+  /// Least slope of the cavity's ceiling against the horizontal in the printer, degrees, so that it
+  /// prints without support; 0: any.
+  double overhangAngle = 0.0;
   std::string printFile; ///< path, UTF-8, of a 3MF project for a slicer; empty: none
   int drainHoles = 0;    ///< least number for each cavity; 0: none are drilled
   /// Least diameter of a drain hole, mm: what printing guides ask for, for resin and for powder

@@ -192,6 +192,13 @@ CavityResult polished(const CavityTask& task, const LayeredQuadric& quadric, dou
   return std::move(*best);
 }
 
+/// The set with another wall.
+OpenedSet withWall(const OpenedSet& set, double wall) {
+  OpenedSet result = openedSet(set.surface, wall, set.edge);
+  result.fill = set.fill;
+  return result;
+}
+
 bool leavesRoom(const TriangleTree& surface, double wall) {
   constexpr double kFewCubes = 8000.0;
   const double edge = edgeOfCubes(surfaceArea(surface.vertices(), surface.faces()), kFewCubes);
@@ -234,7 +241,7 @@ Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, double farth
     const std::optional<CavityContour> found =
         wall <= deliverable.wall
             ? cavityContour(deliverable, quadric, isWorthIt)
-            : cavityContour(openedSet(task.surface, wall, deliverable.edge), quadric, isWorthIt);
+            : cavityContour(withWall(deliverable, wall), quadric, isWorthIt);
     if (!found || found->contour.mesh.faces.rows() == 0) {
       result = {};
       // Where there is room the limit's body is the solid one.
@@ -332,7 +339,9 @@ OpenedSet deliverableSet(const TriangleTree& surface, double wall, const RegionP
 
 CavityResult bestPossibleCavity(const CavityTask& task, const OpenedSet& deliverable) {
   const Stopwatch time;
-  if (std::optional<CavityResult> walled = uniformlyWalled(task, deliverable.edge)) {
+  std::optional<CavityResult> walled;
+  if (!deliverable.fill) walled = uniformlyWalled(task, deliverable.edge);
+  if (walled) {
     walled->effort.secondsOptimization = time.seconds() - walled->effort.secondsInspection;
     return std::move(*walled);
   }

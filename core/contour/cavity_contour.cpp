@@ -119,7 +119,8 @@ std::optional<CavityContour> cavityContour(const OpenedSet& set,
   const double leastVolume = std::pow(set.width, 3);
   // Vertices on the border shall not count as too near for their last digits.
   constexpr double kMore = 1e-4;
-  const Region region{set.surface, (1.0 + kMore) * set.wall, &*set.deep, quadric, set.edge};
+  const Region region{set.surface,   (1.0 + kMore) * set.wall, &*set.deep, quadric, set.edge,
+                      set.fill.get()};
   BorderLattice lattice = borderLattice(region, set.edge);
   // What the cubes are too large for becomes solid.
   constexpr int kRounds = 9;

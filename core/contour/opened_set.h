@@ -16,6 +16,7 @@ struct OpenedSet {
   double width;                         ///< of the ball
   double edge;                          ///< of the cubes that its border is to be made with
   std::shared_ptr<const DeepPart> deep; ///< null: no such ball fits, there are no points
+  std::shared_ptr<const GridFunction> fill = {}; ///< null, or positive where they belong to it
 };
 
 /// The edge of cubes about `count` of which a surface of this area passes through; a length.
@@ -27,8 +28,8 @@ OpenedSet openedSet(const TriangleTree& surface, double wall, double edge);
 /// `width`: of the ball, a length.
 OpenedSet openedSet(const TriangleTree& surface, double wall, double width, double edge);
 
-/// What belongs to it of the cubes behind the walls; one more plane cuts those where the opening
-/// ends.
+/// What belongs to it of the cubes behind the walls; another plane cuts those where the opening
+/// ends or something is filled.
 RegionParts partsWithin(const OpenedSet& set, const RegionParts& all);
 
 } // namespace massprops

@@ -78,6 +78,15 @@ bool InsetProbe::isInside(const Vec3& x) const {
 }
 
 Sample InsetProbe::at(const Vec3& x, double horizon) {
+  const Sample inset = behindWalls(x, horizon);
+  if (region_.fill == nullptr || inset.value <= -horizon) return inset;
+  const Sample filled = region_.fill->at(x);
+  if (filled.value >= inset.value) return inset;
+  isOfSurface_ = false;
+  return filled;
+}
+
+Sample InsetProbe::behindWalls(const Vec3& x, double horizon) {
   const DeepPart* deep = region_.deep;
   const double exact = (deep != nullptr ? deep->depth : region_.wall) + horizon;
   nearest_ = region_.surface.nearest(x, std::numeric_limits<double>::infinity(), nearest_.face,

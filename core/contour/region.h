@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/optimum/layered_quadric.h"
+#include "core/query/grid_function.h"
 #include "core/query/point_in_mesh.h"
 #include "core/query/triangle_tree.h"
 
@@ -19,7 +20,7 @@ struct DeepPart {
 };
 
 /// Points at least a wall behind the surface, not farther from the deep part than its reach, on the
-/// positive side of the quadric. Working frame.
+/// positive side of the quadric, where nothing is filled. Working frame.
 struct Region {
   const TriangleTree& surface; ///< closed, outward
   double wall;
@@ -28,12 +29,7 @@ struct Region {
   /// How far above and below a height between layers one quadric passes into the other, so that a
   /// step there is no jump.
   double transition = 0.0;
-};
-
-/// A function near a point, positive inside, its slope a unit vector: about a signed distance.
-struct Sample {
-  double value;
-  Vec3 slope;
+  const GridFunction* fill = nullptr; ///< null, or positive where nothing carries a ceiling
 };
 
 /// Of the quadric, in lengths. \pre the region has one
@@ -58,6 +54,8 @@ public:
   bool isOfSurface() const { return isOfSurface_; }
 
 private:
+  /// Without what carries ceilings.
+  Sample behindWalls(const Vec3& x, double horizon);
   Sample ofOpening(const Vec3& x, double horizon, const Sample& inset);
   bool isInside(const Vec3& x) const;
 

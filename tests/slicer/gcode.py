@@ -8,6 +8,7 @@ import numpy as np
 
 FILAMENT_AREA = np.pi * 1.75**2 / 4  # mm², as the projects say
 LAYER = 0.2  # mm
+HALF_BRIDGE = 2.5 + 0.5  # mm, and the pixels' diagonal
 # What is taken off, and what is not printed.
 BESIDES = {"Support material", "Support material interface", "Skirt/Brim", "Custom"}
 
@@ -40,6 +41,52 @@ class Extrusions:
 
     def centre(self):
         return (self.volume[:, None] * self.middles()).sum(0) / self.volume.sum()
+
+
+def largest_reach(extrusions, cavity):
+    """Over all places that are printed within the box around the cavity's vertices: how far what is
+    printed below is, support too, mm; at most 6."""
+    pixel, most = 0.25, 24
+    low = cavity.min(0)
+    shape = np.ceil(np.ptp(cavity, axis=0)[:2] / pixel).astype(int) + 2 * most
+
+    def image_of(segments):
+        image = np.zeros(shape, bool)
+        for share in np.linspace(0, 1, 80):
+            at = (1 - share) * segments.start[:, :2] + share * segments.end[:, :2]
+            place = np.floor((at - low[:2]) / pixel).astype(int) + most
+            place = place[((place >= 0) & (place < shape)).all(1)]
+            image[place[:, 0], place[:, 1]] = True
+        return image
+
+    body, support = extrusions.of_the_body(), extrusions.support()
+    layer = np.round(body.end[:, 2] / LAYER).astype(int)
+    below, result = None, 0
+    for k in range(layer.min(), layer.max() + 1):
+        image = image_of(body.where(layer == k))
+        inner = image[most:-most, most:-most]
+        if below is not None and low[2] < k * LAYER < cavity[:, 2].max() + 2 * LAYER:
+            # Support ends a gap below what it carries.
+            height = support.end[:, 2] - k * LAYER
+            reached = below | image_of(support.where((height < 0) & (height > -3.5 * LAYER)))
+            steps = 0
+            # Rings around, by turns with four and with eight neighbours.
+            while steps < most and (inner & ~reached[most:-most, most:-most]).any():
+                steps += 1
+                grown = reached.copy()
+                grown[1:] |= reached[:-1]
+                grown[:-1] |= reached[1:]
+                grown[:, 1:] |= reached[:, :-1]
+                grown[:, :-1] |= reached[:, 1:]
+                if steps % 2:
+                    grown[1:, 1:] |= reached[:-1, :-1]
+                    grown[1:, :-1] |= reached[:-1, 1:]
+                    grown[:-1, 1:] |= reached[1:, :-1]
+                    grown[:-1, :-1] |= reached[1:, 1:]
+                reached = grown
+            result = max(result, steps)
+        below = image
+    return pixel * result
 
 
 def slice_project(project, gcode):

@@ -19,6 +19,8 @@ INFILL = 0.1
 WITHOUT_INFILL = {"leaning_jar"}
 # A mass that can be reached without a heavy filling.
 FOR_INFILL = {"game_piece": {"target_mass": 16}}
+# Empty cavities that are to be printed without support.
+CEILINGS = ["leaning_egg", "toy_dinosaur"]
 # How they are printed, where that is not how they are used.
 BUILD_AXIS = {"hanging_fish": 2}
 
@@ -97,6 +99,20 @@ class SlicerTest(HostTest):
         if "MASSPROPS_PRINTED" in os.environ:
             self.keep(sample, infill, project)
 
+    def check_ceilings(self, sample):
+        """What is printed above a cavity has something below it within half a bridge, and nearer by far
+        than above one whose ceiling is as flat as it comes."""
+        reach = {}
+        for angle in (0, 45):
+            _, project, extrusions = self.print_of(sample, overhang_angle=angle,
+                                                   cavity_shape=0 if angle else 2)
+            reach[angle] = gcode.largest_reach(extrusions, parts_of(project)["SupportBlocker"][0])
+            self.check_support(parts_of(project), extrusions, 0)
+        print(f"{sample:22} from what is printed to what is below it, overhang_angle 0: at least "
+              f"{reach[0]:.1f} mm, 45: {reach[45]:.1f} mm", flush=True)
+        self.assertLess(reach[45], 0.5 * reach[0])
+        self.assertLessEqual(reach[45], gcode.HALF_BRIDGE)
+
     def check_support(self, parts, extrusions, infill):
         """Outside only: nobody could take it out of a cavity."""
         support = extrusions.support()
@@ -123,6 +139,8 @@ def add_tests():
         setattr(SlicerTest, f"test_{sample}_hollow", lambda self, s=sample: self.check(s, 0))
         if sample not in WITHOUT_INFILL:
             setattr(SlicerTest, f"test_{sample}_infill", lambda self, s=sample: self.check(s, INFILL))
+    for sample in CEILINGS:
+        setattr(SlicerTest, f"test_{sample}_ceilings", lambda self, s=sample: self.check_ceilings(s))
 
 
 add_tests()

@@ -1,0 +1,86 @@
+// Cavities whose ceilings are to carry themselves, judged in cubes as a printer lays them.
+#include "core/pipeline.h"
+#include "judge/layers.h"
+#include "samples.h"
+#include "shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <variant>
+
+namespace massprops::testing {
+namespace {
+
+constexpr double kSide = 0.75; // mm
+
+Overhang overhangOf(const Result& result) {
+  TriangleMesh cavity = result.inner;
+  cavity.faces.col(1).swap(cavity.faces.col(2)); // its normals point into it
+  return testing::overhangOf(cavity, kSide);
+}
+
+double number(const Result& result, const std::string& key) {
+  return std::get<double>(result.report.at(key));
+}
+
+void expectCarried(const TriangleMesh& model, Options options, double largestGap) {
+  options.overhangAngle = 0.0;
+  const Result flat = optimizeMassProperties(model, options);
+  options.overhangAngle = 45.0;
+  const Result carried = optimizeMassProperties(model, options);
+  // Half a bridge of 5 mm, and what the cubes round.
+  constexpr double kReach = 2.5 + 2.0 * kSide;
+  const Overhang overhang = overhangOf(carried);
+  EXPECT_LE(overhang.reach, kReach);
+  EXPECT_LT(overhang.reach, 2.0 / 3.0 * overhangOf(flat).reach);
+  EXPECT_EQ(overhang.islands, 0);
+  EXPECT_TRUE(std::get<bool>(carried.report.at("solved")));
+  EXPECT_LE(number(carried, "ceiling_span"), 5.0);
+  EXPECT_EQ(std::get<int>(carried.report.at("ceiling_tips")), 0);
+  EXPECT_LT(number(carried, "gap_to_limit"), largestGap);
+}
+
+TEST(Printable, BoxWeighsHardlyMoreThanOneWithAFlatCeiling) {
+  Options options;
+  options.goal = GoalKind::Mass;
+  options.innerLowerBound = 1.2;
+  expectCarried(box({60, 60, 60}, 12), options, 0.16);
+}
+
+TEST(Printable, DinosaurStands) {
+  expectCarried(sampleMesh("toy_dinosaur"), {}, 0.35);
+}
+
+TEST(Printable, DogStandsOnItsLegs) {
+  expectCarried(sampleMesh("toy_dog"), {}, 0.4);
+}
+
+TEST(Printable, CeilingIsThatOfTheBuildAxis) {
+  // A long room, printed upright, has a small ceiling: less has to be filled than lying.
+  Options options;
+  options.goal = GoalKind::Mass;
+  options.innerLowerBound = 1.2;
+  options.overhangAngle = 45.0;
+  const TriangleMesh model = box({90, 24, 24}, 10);
+  const Result lying = optimizeMassProperties(model, options);
+  options.buildAxis = BuildAxis::PlusX;
+  const Result upright = optimizeMassProperties(model, options);
+  EXPECT_LT(number(upright, "mass_after"), number(lying, "mass_after"));
+}
+
+TEST(Printable, NothingChangesWhereTheCeilingIsSteep) {
+  Options options;
+  options.goal = GoalKind::Mass;
+  options.cavityShape = CavityShape::BestPossible;
+  options.innerLowerBound = 1.0;
+  // A cone of 60° whose tip is rounded off by less than a bridge.
+  const TriangleMesh cone = revolved({{0, 45}, {1, 44}, {25, 2}, {25, 0}, {0, 0}}, 64);
+  const Result asItComes = optimizeMassProperties(cone, options);
+  options.overhangAngle = 45.0;
+  const Result carried = optimizeMassProperties(cone, options);
+  EXPECT_NEAR(number(carried, "mass_after") / number(asItComes, "mass_after"), 1.0, 0.01);
+}
+
+} // namespace
+} // namespace massprops::testing
