@@ -239,9 +239,8 @@ Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, double farth
   for (int round = 1; round <= kRounds; ++round) {
     if (deliverable.wall < roomy || round > 1) wall += roomy - task.wall;
     const std::optional<CavityContour> found =
-        wall <= deliverable.wall
-            ? cavityContour(deliverable, quadric, isWorthIt)
-            : cavityContour(withWall(deliverable, wall), quadric, isWorthIt);
+        wall <= deliverable.wall ? cavityContour(deliverable, quadric, isWorthIt)
+                                 : cavityContour(withWall(deliverable, wall), quadric, isWorthIt);
     if (!found || found->contour.mesh.faces.rows() == 0) {
       result = {};
       // Where there is room the limit's body is the solid one.
