@@ -78,9 +78,9 @@ bool InsetProbe::isInside(const Vec3& x) const {
 }
 
 Sample InsetProbe::at(const Vec3& x, double horizon) {
-  const Sample inset = behindWalls(x, horizon);
+  Sample inset = behindWalls(x, horizon);
   if (region_.fill == nullptr || inset.value <= -horizon) return inset;
-  const Sample filled = region_.fill->at(x);
+  Sample filled = region_.fill->at(x);
   if (filled.value >= inset.value) return inset;
   isOfSurface_ = false;
   return filled;

@@ -381,7 +381,7 @@ SupportingFill::SupportingFill(const OpenedSet& set, const OverhangWishes& wishe
     : set_(set), grid_(gridAround(set.surface, wishes.toPrint, wishes.edge * wishes.bridge)),
       run_(static_cast<float>(1.0 / std::tan(wishes.angle))) {
   constexpr double kMostNodes = 3e6; // what is coarser has wider spans
-  const double nodes = static_cast<double>(grid_.nodes());
+  const auto nodes = static_cast<double>(grid_.nodes());
   if (nodes > kMostNodes)
     grid_ = gridAround(set.surface, wishes.toPrint, grid_.edge * std::cbrt(nodes / kMostNodes));
   halfThickness_ = static_cast<float>(wishes.halfThickness * std::max(set.edge / grid_.edge, 1.0));
@@ -393,11 +393,13 @@ SupportingFill::SupportingFill(const OpenedSet& set, const OverhangWishes& wishe
   pillarRadius_ = static_cast<float>(kRadius * set.edge / grid_.edge);
   const auto spacing = static_cast<float>(*wishes.pillarSpacing / grid_.edge);
   const float rowSpacing = spacing * std::sqrt(3.0F) / 2.0F;
-  for (int row = 0; static_cast<float>(row) * rowSpacing < static_cast<float>(grid_.counts.y());
-       ++row) {
-    for (float x = row % 2 == 0 ? 0.0F : spacing / 2; x < static_cast<float>(grid_.counts.x());
-         x += spacing)
-      pillars_.emplace_back(x, static_cast<float>(row) * rowSpacing);
+  const int rows = static_cast<int>(static_cast<float>(grid_.counts.y()) / rowSpacing) + 1;
+  const int columns = static_cast<int>(static_cast<float>(grid_.counts.x()) / spacing) + 1;
+  for (int row = 0; row < rows; ++row) {
+    const float first = row % 2 == 0 ? 0.0F : 0.5F * spacing;
+    for (int column = 0; column < columns; ++column)
+      pillars_.emplace_back(first + static_cast<float>(column) * spacing,
+                            static_cast<float>(row) * rowSpacing);
   }
 }
 

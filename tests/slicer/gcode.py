@@ -43,9 +43,9 @@ class Extrusions:
         return (self.volume[:, None] * self.middles()).sum(0) / self.volume.sum()
 
 
-def largest_reach(extrusions, cavity):
-    """Over all places that are printed within the box around the cavity's vertices: how far what is
-    printed below is, support too, mm; at most 6."""
+def reaches(extrusions, cavity):
+    """Of all that is printed within the box around the cavity's vertices: how far what is printed
+    below is, support too, mm, at most 6; and the area for which it is farther than that."""
     pixel, most = 0.25, 24
     low = cavity.min(0)
     shape = np.ceil(np.ptp(cavity, axis=0)[:2] / pixel).astype(int) + 2 * most
@@ -61,7 +61,7 @@ def largest_reach(extrusions, cavity):
 
     body, support = extrusions.of_the_body(), extrusions.support()
     layer = np.round(body.end[:, 2] / LAYER).astype(int)
-    below, result = None, 0
+    below, areas = None, np.zeros(most)
     for k in range(layer.min(), layer.max() + 1):
         image = image_of(body.where(layer == k))
         inner = image[most:-most, most:-most]
@@ -71,7 +71,11 @@ def largest_reach(extrusions, cavity):
             reached = below | image_of(support.where((height < 0) & (height > -3.5 * LAYER)))
             steps = 0
             # Rings around, by turns with four and with eight neighbours.
-            while steps < most and (inner & ~reached[most:-most, most:-most]).any():
+            while steps < most:
+                left = (inner & ~reached[most:-most, most:-most]).sum()
+                if left == 0:
+                    break
+                areas[steps] += left * pixel**2
                 steps += 1
                 grown = reached.copy()
                 grown[1:] |= reached[:-1]
@@ -84,9 +88,8 @@ def largest_reach(extrusions, cavity):
                     grown[:-1, 1:] |= reached[1:, :-1]
                     grown[:-1, :-1] |= reached[1:, 1:]
                 reached = grown
-            result = max(result, steps)
         below = image
-    return pixel * result
+    return pixel * np.arange(most), areas
 
 
 def slice_project(project, gcode):
