@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace massprops {
@@ -222,9 +223,9 @@ private:
     constexpr float kNearFill = 2.0F;
     distance_.measure(cavity_);
     if (!distance_.hasBorder()) return;
-    eroded_ = distance_.distances();
-    for (float& value : eroded_) value -= kRadius;
-    distance_.measure(eroded_);
+    moved_ = distance_.distances();
+    for (float& value : moved_) value -= kRadius;
+    distance_.measure(moved_);
     for (std::size_t n = 0; n < size(); ++n) {
       const float opened = distance_.distances()[n] + kRadius;
       if (fill[n] >= kNearFill || opened >= cavity_[n]) continue;
@@ -238,9 +239,9 @@ private:
     constexpr float kSlack = 0.2F;
     distance_.measure(cavity_);
     if (!distance_.hasBorder()) return;
-    eroded_ = distance_.distances();
-    for (float& value : eroded_) value += halfThickness_;
-    distance_.measure(eroded_);
+    moved_ = distance_.distances();
+    for (float& value : moved_) value += halfThickness_;
+    distance_.measure(moved_);
     if (!distance_.hasBorder()) return;
     for (std::size_t n = 0; n < size(); ++n) {
       if (before[n] <= 0.0F || cavity_[n] > 0.0F ||
@@ -309,13 +310,19 @@ private:
       for (int i = 0; i < columns_; ++i) {
         const auto n = static_cast<std::size_t>(i + columns_ * j);
         if (before[n] <= 0.0F || before[n] >= kNarrow) continue;
-        const Eigen::Vector2f way = distance_.wayToBorder(i, j);
-        const float length = way.norm();
-        if (length < 1e-4F) continue;
-        const Eigen::Vector2f p(static_cast<float>(i), static_cast<float>(j));
-        fill[n] = std::min(fill[n], filled.at(p + (1.0F - kNarrow / length) * way));
+        fill[n] = std::min(fill[n], nearBorder(filled, i, j, -kNarrow).value_or(kBand));
       }
     }
+  }
+
+  /// The value so far beyond the nearest point of the border, on the way from a node to it; empty
+  /// on the border.
+  std::optional<float> nearBorder(const LayerValues& values, int i, int j, float beyond) const {
+    const Eigen::Vector2f way = distance_.wayToBorder(i, j);
+    const float length = way.norm();
+    if (length < 1e-4F) return {};
+    const Eigen::Vector2f p(static_cast<float>(i), static_cast<float>(j));
+    return values.at(p + (1.0F + beyond / length) * way);
   }
 
   /// How far every node is from what may carry, and the unit way towards it.
@@ -354,12 +361,9 @@ private:
       for (int i = 0; i < columns_; ++i) {
         const auto n = static_cast<std::size_t>(i + columns_ * j);
         if (before[n] > 0.0F) continue;
-        const Eigen::Vector2f way = distance_.wayToBorder(i, j);
-        const float length = way.norm();
         fill[n] = kBand;
-        if (length > kFar || length < 1e-4F) continue;
-        const Eigen::Vector2f p(static_cast<float>(i), static_cast<float>(j));
-        fill[n] = inside.at(p + (1.0F + kInside / length) * way);
+        if (std::abs(distance_.distances()[n]) > kFar) continue;
+        fill[n] = nearBorder(inside, i, j, kInside).value_or(kBand);
       }
     }
   }
@@ -372,7 +376,7 @@ private:
   std::vector<Eigen::Vector2f> wayToPillar_, towards_;
   std::vector<std::size_t> pillarOf_; ///< the nearest one
   std::vector<char> isSeen_;
-  std::vector<float> eroded_, away_, above_, unsupported_, cavity_;
+  std::vector<float> moved_, away_, above_, unsupported_, cavity_;
 };
 
 } // namespace
