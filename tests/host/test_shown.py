@@ -62,7 +62,7 @@ class PyMeshLabTest(unittest.TestCase):
                                 stdout=subprocess.PIPE).stdout.decode()
         names = {line.split("\t")[0] for line in listed.splitlines()}
         blocks = [block for block in shown(r"^```python\n(.*?)^```") if "pymeshlab." in block]
-        self.assertEqual(len(blocks), 2)
+        self.assertTrue(blocks)
         for block in blocks:
             calls = [node for node in ast.walk(ast.parse(block)) if isinstance(node, ast.Call)
                      and getattr(node.func, "attr", "") in FILTER_CALLS]
