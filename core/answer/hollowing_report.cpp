@@ -160,7 +160,10 @@ std::string message(const CavityTask& task, const Verdicts& verdicts, const Cavi
                              : keepsConstraints ? verdicts.after.whatIsMissed(after.mass)
                                                 : verdicts.after.worstViolation(after.mass);
   std::string sentence = isReached ? "The goal is reached" : "The goal is missed";
-  const std::string bySolid = " by the solid model" + (isSolved ? "" : ", where " + missed);
+  // Upright within the verdict's angle, say, but not on the plumb line to its last digits.
+  const std::string notExactly = isReached && !isSolved ? ", but not exactly" : "";
+  const std::string bySolid =
+      " by the solid model" + (isSolved ? "" : notExactly + ", where " + missed);
   if (cavity.status == CavityStatus::NoRoom) {
     return sentence + bySolid +
            (task.open != nullptr ? "; there is no room for an open shell with this wall: "
@@ -175,15 +178,15 @@ std::string message(const CavityTask& task, const Verdicts& verdicts, const Cavi
   }
   if (cavity.status == CavityStatus::NoGain) {
     return sentence + bySolid + ", and no cavity with this wall was found to serve it better." +
-           (isSolved ? "" : outlook(task, verdicts.before, isProved));
+           (isReached ? "" : outlook(task, verdicts.before, isProved));
   }
   if (verdicts.before.isReached(before.mass)) sentence += " (by the solid model too)";
   if (cavity.inspection.components == 0) {
     sentence += " by moving the outer surface alone, for no cavity has room behind this wall";
   }
   if (isSolved) return sentence + "; all constraints hold.";
-  return sentence + ": with the best cavity found " + missed + "." +
-         outlook(task, verdicts.before, isProved);
+  return sentence + notExactly + ": with the best cavity found " + missed + "." +
+         (isReached ? "" : outlook(task, verdicts.before, isProved));
 }
 
 bool carriesItself(const PosedModel& posed, const Stages& stages) {

@@ -121,7 +121,7 @@ TEST(PositivePartBound, LeavesOutNoPlaceThatMayBeHollow) {
       if (distance < kWall + kRadius || distance > 0.06 || !inside.contains(c)) continue;
       Moments q = Moments::Zero();
       q << kRadius * kRadius - c.squaredNorm(), 2.0 * c, -1.0, -1.0, -1.0, 0.0, 0.0, 0.0;
-      for (const std::size_t most : {1, 5000}) {
+      for (const std::size_t most : {std::size_t{1}, std::size_t{5000}}) {
         EXPECT_GE(PositivePartBounds(surface, kWall).of({{}, {q}}, 0.0, most), exact)
             << c.transpose() << ", " << most;
       }
