@@ -1,5 +1,6 @@
 #include "core/overhang/printable_bound.h"
 
+#include "core/base/parallel.h"
 #include "core/contour/cavity_contour.h"
 #include "core/overhang/ceiling.h"
 
@@ -20,8 +21,8 @@ bool isBetter(const OptimalBound& a, const OptimalBound& b) {
 /// A body and what is filled for it.
 class Trial {
 public:
-  Trial(const Printable& unfilled, const OverhangWishes& wishes)
-      : fill_(unfilled.set, wishes), found_(unfilled) {}
+  Trial(const Printable& unfilled, SupportingFill fill)
+      : fill_(std::move(fill)), found_(unfilled) {}
 
   const Printable& found() const { return found_; }
 
@@ -81,13 +82,22 @@ Printable printable(const Goal& goal, const Weights& weights, const Moments& sol
     OverhangWishes tried = wishes;
     tried.halfThickness = attempt.halfThickness;
     tried.edge = attempt.edge;
+    const SupportingFill none(set, tried);
     std::optional<Trial> chosen;
-    for (const double spacing : {0.0, 0.3, 0.2, 0.13}) {
-      if (spacing > 0.0) tried.pillarSpacing = spacing;
-      Trial trial({possible, set}, tried);
-      trial.improve(kFirstRounds, best);
-      if (!chosen || isBetter(trial.found().bound, chosen->found().bound))
-        chosen.emplace(std::move(trial));
+    for (const auto& [some, more] : {std::pair(0.0, 0.3), {0.2, 0.13}}) {
+      std::optional<Trial> trials[2];
+      const auto start = [&](std::optional<Trial>& trial, double spacing) {
+        SupportingFill fill = none;
+        if (spacing > 0.0) fill.allowPillars(spacing);
+        trial.emplace(Printable{possible, set}, std::move(fill));
+        trial->improve(kFirstRounds, best);
+      };
+      inParallel([&, spacing = some] { start(trials[0], spacing); },
+                 [&, spacing = more] { start(trials[1], spacing); });
+      for (std::optional<Trial>& trial : trials) {
+        if (!chosen || isBetter(trial->found().bound, chosen->found().bound))
+          chosen.emplace(*std::move(trial));
+      }
       if (!chosen->found().set.fill) return chosen->found(); // nothing has to be carried
     }
     chosen->improve(kRounds, best);

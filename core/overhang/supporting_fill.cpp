@@ -392,18 +392,20 @@ SupportingFill::SupportingFill(const OpenedSet& set, const OverhangWishes& wishe
   inset_.assign(at(grid_.nodes()), -kBand);
   fill_.assign(at(grid_.nodes()), kBand);
   sample();
-  if (!wishes.pillarSpacing) return;
+}
+
+void SupportingFill::allowPillars(double spacing) {
   constexpr double kRadius = 1.5; // edges of the set's cubes
-  pillarRadius_ = static_cast<float>(kRadius * set.edge / grid_.edge);
-  const auto spacing = static_cast<float>(*wishes.pillarSpacing / grid_.edge);
-  const float rowSpacing = spacing * std::sqrt(3.0F) / 2.0F;
-  const int rows = static_cast<int>(static_cast<float>(grid_.counts.y()) / rowSpacing) + 1;
-  const int columns = static_cast<int>(static_cast<float>(grid_.counts.x()) / spacing) + 1;
+  pillarRadius_ = static_cast<float>(kRadius * set_.edge / grid_.edge);
+  const auto inRow = static_cast<float>(spacing / grid_.edge);
+  const float betweenRows = inRow * std::sqrt(3.0F) / 2.0F;
+  const int rows = static_cast<int>(static_cast<float>(grid_.counts.y()) / betweenRows) + 1;
+  const int columns = static_cast<int>(static_cast<float>(grid_.counts.x()) / inRow) + 1;
   for (int row = 0; row < rows; ++row) {
-    const float first = row % 2 == 0 ? 0.0F : 0.5F * spacing;
+    const float first = row % 2 == 0 ? 0.0F : 0.5F * inRow;
     for (int column = 0; column < columns; ++column)
-      pillars_.emplace_back(first + static_cast<float>(column) * spacing,
-                            static_cast<float>(row) * rowSpacing);
+      pillars_.emplace_back(first + static_cast<float>(column) * inRow,
+                            static_cast<float>(row) * betweenRows);
   }
 }
 

@@ -6,7 +6,6 @@
 #include "core/query/grid_function.h"
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace massprops {
@@ -22,9 +21,6 @@ struct OverhangWishes {
   double halfThickness = 0.8;
   /// Of the grid, in longest spans: four or five edges come out flat where a ceiling begins.
   double edge = 0.2;
-  /// Between pillars, which stand where they carry something, on a grid of triangles; empty: walls
-  /// alone carry.
-  std::optional<double> pillarSpacing = {};
 };
 
 /// Material that grows downwards from the ceilings of a cavity that are too flat, at the wanted
@@ -33,6 +29,10 @@ class SupportingFill {
 public:
   /// \pre points of the set exist
   SupportingFill(const OpenedSet& set, const OverhangWishes& wishes);
+
+  /// Pillars on a grid of triangles with edges of this length may carry, not walls alone. Before
+  /// anything is added.
+  void allowPillars(double spacing);
 
   /// Adds what carries the ceilings of the set's part where the quadric is positive and nothing is
   /// filled yet. The share of it that had to be filled.
