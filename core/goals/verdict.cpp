@@ -18,7 +18,8 @@ std::optional<double> Verdict::worstMeasure(const Moments& /*massMoments*/) cons
 }
 
 std::string Verdict::bestInWords(const std::vector<Moments>& states) const {
-  return "at best " + worstViolation(states.front());
+  // Where several constraints are missed, none of them need be at its least there.
+  return "with the one that comes nearest " + worstViolation(states.front());
 }
 
 std::string Verdict::draw(const Moments& /*before*/, const Moments& /*after*/,
