@@ -659,11 +659,12 @@ PropertyCase makeCase(std::uint32_t seed, int number) {
   if (o.pivot) text << " pivot";
   if (o.weights.volume > 0.0) text << " volume weight " << o.weights.volume;
   // Of fine bodies, for on a coarse one a vertex's faces are no small hole; far away floats lie
-  // farther apart than what is merged.
+  // farther apart than what is merged. One that was flattened until it crosses itself is no clean
+  // one.
   constexpr int kSomeOfThem = 4;
   constexpr Eigen::Index kFine = 400;
   if (number % kSomeOfThem == 1 && c.body.faces.rows() >= kFine && distance == 0.0 && !mirrored &&
-      c.cavities.faces.rows() == 0 && o.outerUpperBound == 0.0) {
+      c.cavities.faces.rows() == 0 && o.outerUpperBound == 0.0 && intersectingPairs(c.body) == 0) {
     Chance defects(seed + 1U, number);
     std::string how;
     c.input = broken(c.body, defects, how);
