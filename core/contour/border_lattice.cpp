@@ -161,6 +161,7 @@ public:
     for (std::size_t c = 0; c < corners_.size(); ++c) findSide(c);
     for (const Block& block : search.found()) addCubes(block.place);
     sampleCrossed();
+    forgetOthers();
   }
 
   void addTo(BorderLattice& lattice) const {
@@ -263,6 +264,24 @@ private:
       if (isCrossed[c] == 0 || corners_[c].inset || isFarBehind(c)) continue;
       corners_[c].inset = probe_.at(positionOf(corners_[c].place), 2.0 * edge_);
     }
+  }
+
+  /// Most corners are of no cube that the border passes through.
+  void forgetOthers() {
+    std::vector<int> numbers(numbers_.size(), -1);
+    std::vector<Corner> corners;
+    for (const Place& place : cubes_) {
+      for (int i = 0; i < 8; ++i) {
+        int& number = numbers[placeOf(place + cornerStep(i))];
+        if (number >= 0) continue;
+        number = static_cast<int>(corners.size());
+        corners.push_back(corners_[numberOf(place + cornerStep(i))]);
+      }
+    }
+    corners.shrink_to_fit();
+    corners_.swap(corners);
+    numbers_.swap(numbers);
+    std::vector<Bounds>().swap(bounds_);
   }
 
   const Region& region_;

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <deque>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -41,7 +42,7 @@ struct Corner {
 struct BorderLattice {
   Vec3 origin = Vec3::Zero();
   double edge = 0.0;
-  std::vector<Corner> corners;
+  std::deque<Corner> corners; ///< many: a vector that grows would hold them twice
   /// Corner i of a cube is the one at its place plus (i & 1, i >> 1 & 1, i >> 2).
   std::vector<std::array<int, 8>> cubes;
   PlaceNumbers cubeAt, cornerAt;

@@ -144,15 +144,19 @@ RegionParts admissibleParts(const TriangleTree& surface, double wall, int cells)
     chunks[static_cast<std::size_t>(chunk.number)] = std::move(sampler).parts();
   });
   RegionParts all{edge, wall, {}};
+  std::size_t count = 0;
+  for (const std::vector<RegionPart>& chunk : chunks) count += chunk.size();
+  all.parts.reserve(count);
   int known = 0;
-  for (const std::vector<RegionPart>& chunk : chunks) {
+  for (std::vector<RegionPart>& chunk : chunks) {
     int most = kNone;
-    for (RegionPart part : chunk) {
+    for (RegionPart& part : chunk) {
       most = std::max(most, part.cell);
       if (part.level == 0) part.cell += known;
-      all.parts.push_back(std::move(part));
+      all.parts.push_back(part);
     }
     known += most + 1;
+    std::vector<RegionPart>().swap(chunk);
   }
   return all;
 }

@@ -21,8 +21,8 @@ bool isBetter(const OptimalBound& a, const OptimalBound& b) {
 /// A body and what is filled for it.
 class Trial {
 public:
-  Trial(const Printable& unfilled, SupportingFill fill)
-      : fill_(std::move(fill)), found_(unfilled) {}
+  Trial(Printable unfilled, SupportingFill fill)
+      : fill_(std::move(fill)), found_(std::move(unfilled)) {}
 
   const Printable& found() const { return found_; }
 
