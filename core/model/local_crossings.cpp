@@ -130,19 +130,27 @@ double distanceOf(const TriangleMesh& mesh, const std::vector<char>& isMarked,
 struct Mended {
   TriangleMesh mesh;
   double distance;
+  std::size_t left = 0; ///< faces that go on crossing
 };
+
+/// So many that this is no matter of a few places.
+bool areMany(const std::vector<int>& crossing, const TriangleMesh& mesh) {
+  constexpr double kMostFaces = 0.1;
+  constexpr std::size_t kFew = 100;
+  return crossing.size() > kFew &&
+         static_cast<double>(crossing.size()) > kMostFaces * static_cast<double>(mesh.faces.rows());
+}
+
+bool hasVolume(double volume, const TriangleMesh& mesh) {
+  constexpr double kMostChange = 0.005;
+  return std::abs(signedVolume(mesh.vertices, mesh.faces) - volume) <=
+         kMostChange * std::abs(volume);
+}
 
 /// One component without its crossings; empty where that fails.
 std::optional<Mended> mendedComponent(const TriangleMesh& component,
                                       const std::vector<int>& crossing, const MendingTask& task) {
-  constexpr double kMostVolume = 0.005;
-  constexpr double kMostFaces = 0.1;
-  constexpr std::size_t kFew = 100;
-  const auto isMany = [](std::size_t crossings, Eigen::Index faces) {
-    return crossings > kFew &&
-           static_cast<double>(crossings) > kMostFaces * static_cast<double>(faces);
-  };
-  if (isMany(crossing.size(), component.faces.rows())) return std::nullopt;
+  if (areMany(crossing, component)) return std::nullopt;
   const double volume = signedVolume(component.vertices, component.faces);
   for (int rings = 0; rings <= kMostRings; ++rings) {
     TriangleMesh mesh = component;
@@ -159,20 +167,76 @@ std::optional<Mended> mendedComponent(const TriangleMesh& component,
       distance += distanceOf(mesh, isMarked, *next);
       mesh = std::move(*next);
       present = selfIntersectingFaces(mesh.vertices, mesh.faces);
-      if (isMany(present.size(), mesh.faces.rows())) break;
+      if (areMany(present, mesh)) break;
     }
-    const bool isKept = std::abs(signedVolume(mesh.vertices, mesh.faces) - volume) <=
-                        kMostVolume * std::abs(volume);
-    if (present.empty() && isKept && distance <= task.wall) {
-      return Mended{submesh(mesh.vertices, mesh.faces).mesh, distance};
+    if (present.empty() && hasVolume(volume, mesh) && distance <= task.wall) {
+      return Mended{submesh(mesh.vertices, mesh.faces).mesh, distance, 0};
     }
   }
   return std::nullopt;
 }
 
-} // namespace
+/// The marked faces in pieces that have no vertex in common.
+std::vector<std::vector<int>> piecesOf(const TriangleMesh& mesh, const std::vector<int>& marked) {
+  Faces faces(static_cast<Eigen::Index>(marked.size()), 3);
+  for (std::size_t i = 0; i < marked.size(); ++i)
+    faces.row(static_cast<Eigen::Index>(i)) = mesh.faces.row(marked[i]);
+  const std::vector<int> number = componentNumbers(mesh.vertices.rows(), faces);
+  std::vector<std::vector<int>> pieces;
+  for (std::size_t i = 0; i < marked.size(); ++i) {
+    const std::size_t piece = at(number[at(faces(static_cast<Eigen::Index>(i), 0))]);
+    if (pieces.size() <= piece) pieces.resize(piece + 1);
+    pieces[piece].push_back(marked[i]);
+  }
+  return pieces;
+}
 
-MendedMesh withoutLocalCrossings(const TriangleMesh& input, const MendingTask& task) {
+/// As `mendedComponent`, but one place after the other, each with as few rings as it takes. Where
+/// that fails it goes on crossing; empty where it fails everywhere.
+std::optional<Mended> mendedPlaces(const TriangleMesh& component, std::vector<int> crossing,
+                                   const MendingTask& task) {
+  if (areMany(crossing, component)) return std::nullopt;
+  constexpr double kMostFaces = 2e6; // looked at for crossings, a ring
+  constexpr double kMostPlaces = 100.0;
+  const double volume = signedVolume(component.vertices, component.faces);
+  double left = std::min(kMostPlaces, kMostFaces / static_cast<double>(component.faces.rows()));
+  TriangleMesh mesh = component;
+  std::vector<int> inVain; // places, by a vertex
+  const auto mendOne = [&] {
+    for (const std::vector<int>& place : piecesOf(mesh, crossing)) {
+      const int key = mesh.faces(place.front(), 0);
+      if (std::find(inVain.begin(), inVain.end(), key) != inVain.end()) continue;
+      if (--left < 0.0) return false;
+      std::vector<char> isMarked(at(mesh.faces.rows()), 0);
+      for (const int f : place) isMarked[at(f)] = 1;
+      for (int rings = 0; rings <= kMostRings; ++rings) {
+        if (rings > 0) grow(mesh, isMarked);
+        std::optional<TriangleMesh> next = replaced(mesh, isMarked);
+        if (!next || !hasVolume(volume, *next)) continue;
+        std::vector<int> others = selfIntersectingFaces(next->vertices, next->faces);
+        if (others.size() >= crossing.size()) continue;
+        if (distanceOf(mesh, isMarked, *next) > task.wall) continue;
+        mesh = *std::move(next);
+        crossing = std::move(others);
+        return true;
+      }
+      inVain.push_back(key);
+    }
+    return false;
+  };
+  bool isAny = false;
+  while (!crossing.empty() && mendOne()) isAny = true;
+  if (!isAny) return std::nullopt;
+  mesh = submesh(mesh.vertices, mesh.faces).mesh;
+  const double distance = greatestDistance(component.vertices, component.faces,
+                                           TriangleTree(mesh.vertices, mesh.faces));
+  if (distance > task.wall) return std::nullopt;
+  return Mended{std::move(mesh), distance, crossing.size()};
+}
+
+/// Each component by `way`, which gets its crossing faces.
+template <class Way>
+MendedMesh withoutCrossings(const TriangleMesh& input, const Way& way) {
   const EdgeCounts edges = countEdges(input.vertices.rows(), input.faces);
   if (edges.boundary + edges.nonManifold + edges.incoherent > 0) return {input};
   MendedMesh result{input};
@@ -182,9 +246,9 @@ MendedMesh withoutLocalCrossings(const TriangleMesh& input, const MendingTask& t
     std::vector<int> crossing =
         selfIntersectingFaces(component.mesh.vertices, component.mesh.faces);
     if (crossing.empty()) continue;
-    std::optional<Mended> better = mendedComponent(component.mesh, crossing, task);
+    std::optional<Mended> better = way(component.mesh, crossing);
     if (!better) continue;
-    mended += crossing.size();
+    mended += crossing.size() - better->left;
     result.distance = std::max(result.distance, better->distance);
     component.mesh = std::move(better->mesh);
   }
@@ -195,6 +259,21 @@ MendedMesh withoutLocalCrossings(const TriangleMesh& input, const MendingTask& t
   result.mesh = assembled(parts);
   result.done = counted(mended, "crossing face", "crossing faces") + " replaced";
   return result;
+}
+
+} // namespace
+
+MendedMesh withoutLocalCrossings(const TriangleMesh& input, const MendingTask& task) {
+  return withoutCrossings(input, [&](const TriangleMesh& part, const std::vector<int>& crossing) {
+    return mendedComponent(part, crossing, task);
+  });
+}
+
+MendedMesh withFewerCrossings(const TriangleMesh& input, const MendingTask& task) {
+  return withoutCrossings(input, [&](const TriangleMesh& part, const std::vector<int>& crossing) {
+    std::optional<Mended> all = mendedComponent(part, crossing, task);
+    return all ? std::move(all) : mendedPlaces(part, crossing, task);
+  });
 }
 
 } // namespace massprops

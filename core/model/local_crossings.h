@@ -11,4 +11,8 @@ namespace massprops {
 /// so stays. \pre a closed, coherently oriented 2-manifold
 MendedMesh withoutLocalCrossings(const TriangleMesh& input, const MendingTask& task);
 
+/// Likewise, but where not all of it can be mended so, as many places as can. For what a union
+/// leaves, whose crossings are slivers; elsewhere they may be parts that overlap.
+MendedMesh withFewerCrossings(const TriangleMesh& input, const MendingTask& task);
+
 } // namespace massprops

@@ -32,6 +32,10 @@ const Way kToSolid = {withoutLocalCrossings, withoutEmptyShells};
 /// gaps where they could not be told: the same again.
 const Way kUnion = {unitedBodies,    joinedSeams,    orientedShells,        withoutLooseSheets,
                     splitToManifold, closedOpenings, withoutLocalCrossings, withoutEmptyShells};
+/// Where that was not enough.
+const Way kLateUnion = {unitedBodies,    joinedSeams,    orientedShells,     withoutLooseSheets,
+                        splitToManifold, closedOpenings, withFewerCrossings, withoutEmptyShells};
+constexpr int kFirstUnions = 2;
 constexpr int kMostUnions = 6;
 
 /// Does the steps and writes down what they did. Returns whether they did anything.
@@ -92,7 +96,7 @@ std::optional<Solid> solidFrom(RepairedMesh manifold, MendingStep closing,
   std::size_t fewest = std::numeric_limits<std::size_t>::max();
   int inVain = 0;
   for (int round = 0; !solid && round < kMostUnions && inVain < 2; ++round) {
-    if (!take(kUnion, task, model)) break;
+    if (!take(round < kFirstUnions ? kUnion : kLateUnion, task, model)) break;
     isUnion = true;
     solid = solidOf(model, task);
     if (solid) break;
