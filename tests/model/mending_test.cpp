@@ -269,6 +269,29 @@ TEST(ClosedOpenings, CloseAVaseAsWell) {
   EXPECT_LT(volume(result.mesh), 1.05 * volume(ball));
 }
 
+/// Two rods joined at one end by a bridge, pressed into each other over a part of their length.
+TriangleMesh pressedFork() {
+  const auto squeeze = [](const Vec3& p) {
+    const double side = p.y() > 0.0 ? 1.0 : -1.0;
+    return Vec3(p.x(), p.y() - 0.3 * side * std::max(0.0, p.x()), p.z() + 0.05 * side * p.x());
+  };
+  TriangleMesh fork = polycube({{0, 0, 0},
+                                {1, 0, 0},
+                                {2, 0, 0},
+                                {3, 0, 0},
+                                {0, 1, 0},
+                                {0, 2, 0},
+                                {1, 2, 0},
+                                {2, 2, 0},
+                                {3, 2, 0}},
+                               2);
+  for (Eigen::Index v = 0; v < fork.vertices.rows(); ++v) {
+    const Vec3 p = fork.vertices.row(v).transpose() - Vec3(1.0, 1.5, 0.5);
+    fork.vertices.row(v) = squeeze(p).transpose();
+  }
+  return fork;
+}
+
 TEST(LocalCrossings, ReplacesAFoldedPlace) {
   const TriangleMesh ball = sphere(12);
   TriangleMesh folded = ball;
@@ -284,6 +307,29 @@ TEST(LocalCrossings, ReplacesAFoldedPlace) {
 TEST(LocalCrossings, LeavesOverlappingBodiesToTheUnion) {
   const TriangleMesh two = joined(sphere(6), shifted(sphere(6), {1, 0.1, 0}));
   EXPECT_TRUE(withoutLocalCrossings(two, taskFor(two)).done.empty());
+}
+
+TEST(LocalCrossings, AreMendedPlaceByPlaceAfterAUnion) {
+  // Overlaps, and has a vertex pushed over its neighbour where it does not.
+  const TriangleMesh fork = pressedFork();
+  TriangleMesh folded = subdivided(subdivided(fork));
+  const std::size_t pressed = intersectingPairs(folded);
+  Eigen::Index face = 0;
+  while (folded.vertices(folded.faces(face, 0), 0) > -0.9 ||
+         folded.vertices(folded.faces(face, 1), 0) > -0.9)
+    ++face;
+  const int v = folded.faces(face, 0);
+  folded.vertices.row(v) +=
+      1.9 * (folded.vertices.row(folded.faces(face, 1)) - folded.vertices.row(v)).eval();
+  ASSERT_GT(intersectingPairs(folded), pressed);
+  MendingTask task = taskFor(fork);
+  task.wall *= 4.0;
+  EXPECT_TRUE(withoutLocalCrossings(folded, task).done.empty());
+  const MendedMesh result = withFewerCrossings(folded, task);
+  EXPECT_TRUE(isClosedAndOriented(result.mesh));
+  EXPECT_LE(intersectingPairs(result.mesh), pressed);
+  EXPECT_GT(intersectingPairs(result.mesh), 0U);
+  EXPECT_LE(result.distance, task.wall);
 }
 
 TEST(EmptyShells, GoAndLeaveTheBodies) {
@@ -341,25 +387,7 @@ TEST(UnitedBodies, KeepCavitiesAndLeaveOutWhatIsInTheMaterial) {
 }
 
 TEST(UnitedBodies, MayCrossThemselves) {
-  // Two rods joined at one end by a bridge, pressed into each other over a part of their length.
-  const auto squeeze = [](const Vec3& p) {
-    const double side = p.y() > 0.0 ? 1.0 : -1.0;
-    return Vec3(p.x(), p.y() - 0.3 * side * std::max(0.0, p.x()), p.z() + 0.05 * side * p.x());
-  };
-  TriangleMesh fork = polycube({{0, 0, 0},
-                                {1, 0, 0},
-                                {2, 0, 0},
-                                {3, 0, 0},
-                                {0, 1, 0},
-                                {0, 2, 0},
-                                {1, 2, 0},
-                                {2, 2, 0},
-                                {3, 2, 0}},
-                               2);
-  for (Eigen::Index v = 0; v < fork.vertices.rows(); ++v) {
-    const Vec3 p = fork.vertices.row(v).transpose() - Vec3(1.0, 1.5, 0.5);
-    fork.vertices.row(v) = squeeze(p).transpose();
-  }
+  const TriangleMesh fork = pressedFork();
   ASSERT_GT(intersectingPairs(fork), 0U);
   const MendedMesh result = unitedBodies(fork, taskFor(fork));
   expectClosed(result.mesh);
