@@ -611,6 +611,7 @@ Report report(const Preparation& model, const Foundation& foundation, const Sear
   const Coarsening& coarse = foundation.coarse;
   Stages stages;
   stages.repairs = model.solid.repairs();
+  if (found.cavity.status != CavityStatus::Found) stages.repairs.replacedCavities = 0; // they stay
   if (model.keptSolidTree && found.cavity.status == CavityStatus::Found) {
     const TriangleTree surface(model.posed.vertices, model.surface.faces(),
                                TriangleTree::Order::Spatial);

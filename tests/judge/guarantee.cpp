@@ -721,8 +721,11 @@ void checkFoot(const PropertyCase& c, const Result& result, Findings& found) {
     found.require(std::abs(level - whole.col(2).minCoeff() - depth) <= roundOff,
                   "the foot is not where it is said to be");
     const double volume = quadratureMoments(outer)[0];
+    // Where there is no new cavity the old ones stay.
+    const bool isOld = result.inner.faces.rows() == 0 && c.cavities.faces.rows() > 0;
     const double cut = quadratureMoments(c.body)[0] -
-                       momentsOfColumns(c.body, frame.turn.transpose() * Vec3::UnitZ(), level)[0];
+                       momentsOfColumns(c.body, frame.turn.transpose() * Vec3::UnitZ(), level)[0] +
+                       (isOld ? quadratureMoments(c.cavities)[0] : 0.0);
     // Corners are merged within 1e-4 of the diagonal.
     found.require(std::abs(volume - cut) <= 1e-5 * std::pow(frame.length, 3),
                   "the body with a foot has the volume ", volume, " instead of ", cut);
@@ -825,6 +828,8 @@ std::vector<std::string> brokenPromises(const PropertyCase& c, const Result& res
                 "the message does not say that there is no cavity: ", message);
   found.require(hollow == !(std::get<int>(result.report.at("cavity_components")) == 0),
                 "cavity_components does not fit the cavity");
+  found.require(hollow || std::get<int>(result.report.at("replaced_cavities")) == 0,
+                "a cavity is said to be replaced by a new one that is not there");
   found.require(has(result, "largest_wall") ==
                     (message.find("nothing can be hollowed") != std::string::npos),
                 "largest_wall is reported without a reason, or missing");
