@@ -1,7 +1,6 @@
 #include "judge/guarantee.h"
 
 #include "judge/checks.h"
-#include "judge/layers.h"
 #include "shapes.h"
 
 #include <Eigen/Eigenvalues>
@@ -795,23 +794,6 @@ bool hasFlatComponent(const TriangleMesh& mesh) {
 
 namespace {
 
-/// What is said to carry itself does so in cubes. \pre hollow, printed as used, lengths are mm
-void checkCeiling(const PropertyCase& c, const Result& result, const Upright& frame,
-                  Findings& found) {
-  if (!std::get<bool>(result.report.at("solved"))) return;
-  const double span = number(result, "ceiling_span");
-  found.require(span <= 5.0, "solved, with spans of ", span);
-  found.require(std::get<int>(result.report.at("ceiling_tips")) == 0, "solved, with tips");
-  // Not the pieces that hang in mid-air: what may hang down by half a millimetre is one in cubes,
-  // too.
-  const double side = std::max(0.5, frame.length / 150.0);
-  const TriangleMesh cavity = reversed(transformed(result.inner, frame.turn));
-  const Overhang overhang = overhangOf(cavity, side);
-  const double carried = std::tan((90.0 - c.options.overhangAngle) * kPi / 180.0);
-  found.require(overhang.reach <= 0.5 * span + side * (carried + std::sqrt(2.0)),
-                "the ceiling reaches out by ", overhang.reach, ", spans are of ", span);
-}
-
 std::vector<std::string> brokenPromises(const PropertyCase& c, const Result& result,
                                         double touching) {
   Findings found;
@@ -940,7 +922,6 @@ std::vector<std::string> brokenPromises(const PropertyCase& c, const Result& res
   const double slack = 1e-8 + (isSpin ? inertiaError : 10 * error);
   found.require(told >= violationAfter - slack && (!exact || told <= violationAfter + slack),
                 "max_constraint_violation is ", told, ", measured ", violationAfter);
-  if (hollow && c.options.overhangAngle > 0.0) checkCeiling(c, result, frame, found);
   const bool solved = std::get<bool>(result.report.at("solved"));
   if (solved) {
     found.require(violationAfter <= 1e-6 + slack, "solved, with a violation of ", violationAfter);

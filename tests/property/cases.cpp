@@ -543,12 +543,7 @@ PropertyCase makeCase(std::uint32_t seed, int number) {
 
   // Place: size, distance, precision.
   c.floats = chance.oneIn(2);
-  double size = chance.oneIn(2) ? 1.0 : chance.logBetween(1e-6, 1e6);
-  // Ceilings that carry themselves; spans are bridged by their millimetres.
-  Chance ceilings(seed + 2U, number);
-  constexpr int kFewOfThem = 6;
-  const bool carriesItself = ceilings.oneIn(kFewOfThem);
-  if (carriesItself) size = ceilings.logBetween(15.0, 80.0) / diagonalOf(body);
+  const double size = chance.oneIn(2) ? 1.0 : chance.logBetween(1e-6, 1e6);
   const double distance =
       chance.oneIn(3) ? chance.logBetween(0.1, c.floats ? 10.0 : 1e4) * diagonalOf(body) : 0.0;
   const UpAxis axes[] = {UpAxis::PlusZ,  UpAxis::PlusY,  UpAxis::PlusX,
@@ -629,11 +624,6 @@ PropertyCase makeCase(std::uint32_t seed, int number) {
   o.cavityShape = static_cast<CavityShape>(chance.integer(0, 2));
   // Cut flat instead of standing on given radii.
   if (o.radiusX && o.outerUpperBound == 0.0 && chance.oneIn(2)) o.radiusX = o.radiusY = {};
-  if (carriesItself) {
-    o.overhangAngle = ceilings.between(25.0, 65.0);
-    o.outerLowerBound = o.outerUpperBound = o.cavityInfill = 0.0;
-    if (o.cavityShape == CavityShape::Offset) o.cavityShape = CavityShape::Automatic;
-  }
   if (o.outerUpperBound > 0.0) o.foot = FootCut::Never;
   if (c.floats)
     o.representable = [](const Points& points) {
@@ -652,7 +642,6 @@ PropertyCase makeCase(std::uint32_t seed, int number) {
   }
   if (o.cavityShape == CavityShape::Offset) text << " offset surface";
   if (o.cavityShape == CavityShape::BestPossible) text << " best possible";
-  if (carriesItself) text << " overhang angle " << o.overhangAngle;
   if (o.tippingAngle > 0.0) text << " tipping angle " << o.tippingAngle;
   if (o.goal == GoalKind::Spin) text << " rpm " << o.spinSpeed;
   if (o.goal == GoalKind::Mass) text << " target " << o.targetMass;
