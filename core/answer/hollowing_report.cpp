@@ -151,8 +151,23 @@ void addDrainage(const PosedModel& posed, const Verdict& verdict, const Body& pl
   verdict.describe(open, "open", report);
 }
 
+/// Why there is no room, and what there would be room without, before what is said of the wall.
+std::string whatLeavesNoRoom(const CavityTask& task, const Options& options) {
+  if (task.open != nullptr) return "there is no room for an open shell with this wall: ";
+  const bool isAngleGiven = options.overhangAngle > 0.0;
+  const std::string nothing = "nothing can be hollowed at this wall";
+  if (task.surface.keepsOut()) {
+    return nothing + (isAngleGiven ? ", solid depth and overhang angle" : " and solid depth") +
+           ": select fewer faces, or lower solid_depth" +
+           (isAngleGiven ? " or overhang_angle" : "") + "; without these, ";
+  }
+  return nothing +
+         (isAngleGiven ? " and overhang angle: lower overhang_angle; without it, " : ": ");
+}
+
 std::string message(const CavityTask& task, const Verdicts& verdicts, const CavityResult& cavity,
-                    const Body& before, const Body& after, double largestWall, bool isProved) {
+                    const Body& before, const Body& after, double largestWall, bool isProved,
+                    const Options& options) {
   const bool isReached = verdicts.after.isReached(after.mass);
   const bool keepsConstraints = after.violation <= kFeasibility;
   const bool isSolved = isReached && keepsConstraints;
@@ -165,12 +180,7 @@ std::string message(const CavityTask& task, const Verdicts& verdicts, const Cavi
   const std::string bySolid =
       " by the solid model" + (isSolved ? "" : notExactly + ", where " + missed);
   if (cavity.status == CavityStatus::NoRoom) {
-    return sentence + bySolid +
-           (task.open != nullptr ? "; there is no room for an open shell with this wall: "
-            : task.surface.keepsOut()
-                ? "; nothing can be hollowed at this wall and solid depth: select fewer faces, or "
-                  "lower solid_depth; without these, "
-                : "; nothing can be hollowed at this wall: ") +
+    return sentence + bySolid + "; " + whatLeavesNoRoom(task, options) +
            (largestWall > 0.0
                 ? "lower inner_lower_bound to " + toString(largestWall) + " or less."
                 : "lower inner_lower_bound, and refine the model with Remeshing > Isotropic "
@@ -384,14 +394,14 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Ve
                         servesDrained(verdicts.after, after, stages, options) &&
                         carriesItself(posed, stages);
   report.add("solved", isSolved);
-  report.add("message",
-             (stages.repairs.warning.empty() ? "" : stages.repairs.warning + " ") +
-                 message(task, verdicts, cavity, before, after,
-                         stages.largestWall * posed.frame.length, !stages.certificates.empty()) +
-                 aboutDrainage(posed, verdicts.after, after, stages, options) +
-                 aboutCeiling(posed, stages) + remark(verdicts.after, after.mass) +
-                 footInWords(posed, isSolved) +
-                 adviceOnRounding(stages.rounding, task.wall * posed.frame.length));
+  report.add("message", (stages.repairs.warning.empty() ? "" : stages.repairs.warning + " ") +
+                            message(task, verdicts, cavity, before, after,
+                                    stages.largestWall * posed.frame.length,
+                                    !stages.certificates.empty(), options) +
+                            aboutDrainage(posed, verdicts.after, after, stages, options) +
+                            aboutCeiling(posed, stages) + remark(verdicts.after, after.mass) +
+                            footInWords(posed, isSolved) +
+                            adviceOnRounding(stages.rounding, task.wall * posed.frame.length));
   const std::string units = unitsInWords(posed.frame.length);
   if (!units.empty()) report.add("units", units);
   report.add("objective_before", before.objective);

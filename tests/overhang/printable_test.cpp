@@ -82,5 +82,20 @@ TEST(Printable, NothingChangesWhereTheCeilingIsSteep) {
   EXPECT_NEAR(number(carried, "mass_after") / number(asItComes, "mass_after"), 1.0, 0.01);
 }
 
+TEST(Printable, LargestWallIsThatWithoutTheAngle) {
+  Options options;
+  options.goal = GoalKind::Mass;
+  options.innerLowerBound = 12.0;
+  options.overhangAngle = 45.0;
+  const TriangleMesh model = box({20, 20, 20}, 6);
+  const Result nothing = optimizeMassProperties(model, options);
+  EXPECT_NE(std::get<std::string>(nothing.report.at("message"))
+                .find("lower overhang_angle; without it, lower inner_lower_bound to "),
+            std::string::npos);
+  options.innerLowerBound = 0.99 * number(nothing, "largest_wall");
+  options.overhangAngle = 0.0;
+  EXPECT_GT(optimizeMassProperties(model, options).inner.faces.rows(), 0);
+}
+
 } // namespace
 } // namespace massprops::testing
