@@ -483,6 +483,12 @@ Preparation prepare(const TriangleMesh& model, const Options& options, ProgressB
   return {model, options, resolution, known};
 }
 
+/// In single precision where that is far finer than what mending merges: so the same file becomes
+/// the same solid whatever the host stores.
+Points roundedForMending(const Points& points, bool inFloats, const Options& options) {
+  return representable(options, inFloats ? Points(points.cast<float>().cast<double>()) : points);
+}
+
 Solid mend(const TriangleMesh& model, const Options& options, ProgressBar& bar) {
   bar.show(0, "Mending the model");
   MendingTask task;
@@ -490,8 +496,11 @@ Solid mend(const TriangleMesh& model, const Options& options, ProgressBar& bar) 
   task.wall = isWallGiven ? *options.innerLowerBound : kDefaultWall * diagonalOf(model.vertices);
   task.rotation = rotationToUp(options.upAxis);
   task.keepsOpenings = options.openSurface;
-  task.representable = [&](const Points& points) { return representable(options, points); };
-  std::optional<Solid> solid = mended(model, task);
+  const bool inFloats = isFloatFineFor(model.vertices);
+  task.representable = [&](const Points& points) {
+    return roundedForMending(points, inFloats, options);
+  };
+  std::optional<Solid> solid = mended({task.representable(model.vertices), model.faces}, task);
   if (!solid) throw DefectiveSurface("The surface cannot be mended.");
   return *std::move(solid);
 }

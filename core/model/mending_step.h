@@ -41,13 +41,24 @@ inline double diagonalOf(const Points& vertices) {
   return (vertices.colwise().maxCoeff() - vertices.colwise().minCoeff()).norm();
 }
 
+/// A share of the diagonal: what is nearer is at the same place for any printer.
+inline constexpr double kPlaceShare = 1e-5;
+
+/// A length far above the rounding of floats near these vertices.
+inline double wellAboveFloats(const Points& vertices) {
+  constexpr double kFloat = 1e-6;
+  return vertices.rows() == 0 ? 0.0 : kFloat * vertices.cwiseAbs().maxCoeff();
+}
+
 /// What is nearer than this is at the same place for any printer, and far above the rounding of a
 /// float.
 inline double placeTolerance(const Points& vertices) {
-  constexpr double kShare = 1e-5;
-  constexpr double kFloat = 1e-6;
-  if (vertices.rows() == 0) return 0.0;
-  return std::max(kShare * diagonalOf(vertices), kFloat * vertices.cwiseAbs().maxCoeff());
+  return std::max(kPlaceShare * diagonalOf(vertices), wellAboveFloats(vertices));
+}
+
+/// Whether floats store these vertices far finer than mending tells places apart.
+inline bool isFloatFineFor(const Points& vertices) {
+  return wellAboveFloats(vertices) <= kPlaceShare * diagonalOf(vertices);
 }
 
 } // namespace massprops

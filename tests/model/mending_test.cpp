@@ -534,6 +534,30 @@ TEST(Mending, GivesTheSameBytesAgain) {
   EXPECT_EQ(one->faces(), other->faces());
 }
 
+TEST(Mending, MakesTheSameSolidInHostsOfFloatsAndOfDoubles) {
+  // Far away a float is too coarse for that.
+  for (const double away : {0.0, 300.0}) {
+    const TriangleMesh two =
+        shifted(joined(blob(8), shifted(blob(7), {0.9, 0.3, 0.1})), {away, 0.0, 0.0});
+    Options options;
+    options.goal = GoalKind::Mass;
+    const Result doubles = optimizeMassProperties(two, options);
+    options.representable = [](const Points& points) {
+      return Points(points.cast<float>().cast<double>());
+    };
+    TriangleMesh stored = two;
+    stored.vertices = options.representable(two.vertices);
+    const Result floats = optimizeMassProperties(stored, options);
+    ASSERT_TRUE(doubles.outer && floats.outer);
+    EXPECT_EQ(doubles.outer->vertices == floats.outer->vertices, away == 0.0);
+    const auto saved = [](const Result& result) {
+      return std::get<double>(result.report.at("mass_before")) -
+             std::get<double>(result.report.at("mass_after"));
+    };
+    EXPECT_NEAR(saved(floats), saved(doubles), 0.02 * saved(doubles));
+  }
+}
+
 // ---------------------------------------------------------------- broken at random
 
 /// A clean solid and what was made of it.
