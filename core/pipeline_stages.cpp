@@ -144,8 +144,9 @@ bool keepsConstraints(const CavityTask& task, const CavityResult& cavity) {
 
 /// Whether the outer surface is moved inwards to find a cavity.
 bool movesInwards(const Preparation& model, const Options& options) {
-  const bool isWanted =
-      options.cavityShape != CavityShape::BestPossible && options.overhangAngle == 0.0;
+  const bool isWanted = options.overhangAngle > 0.0
+                            ? options.cavityShape == CavityShape::Offset
+                            : options.cavityShape != CavityShape::BestPossible;
   return isWanted || moves(options) || model.posed.open;
 }
 
@@ -273,7 +274,7 @@ std::optional<Possible> possibleWithin(const TriangleTree& surface, double wall,
   if (wide.col(0).sum() < cells.col(0).sum())
     bound = withBodyWithin(wide, std::move(bound), goal, weights, solid, states);
   Possible result{cells, std::move(bound), std::move(deliverable), std::move(states)};
-  if (options.overhangAngle > 0.0)
+  if (options.overhangAngle > 0.0 && options.cavityShape != CavityShape::Offset)
     result.printable.emplace(printable(goal, weights, solid, result.states, behindWalls,
                                        result.deliverable, result.bound, wishes));
   return result;
@@ -283,7 +284,9 @@ std::optional<Possible> possibleWithin(const TriangleTree& surface, double wall,
 std::string reasonForBestPossible(const Options& options, const OptimalBound& bound,
                                   const Search& found) {
   if (options.cavityShape == CavityShape::BestPossible) return "as asked for";
-  if (options.overhangAngle > 0.0) return "ceilings of offset surfaces do not carry themselves";
+  if (options.overhangAngle > 0.0) {
+    return "no offset surface is looked for where ceilings are to carry themselves";
+  }
   const auto percent = [](double share) { return toString(std::round(1000.0 * share) / 10.0); };
   if (found.offsetsAtMost) {
     return "no offset surface was looked for, for it would leave at least " +
@@ -335,11 +338,41 @@ std::optional<double> worstMeasure(const Search& found) {
       (isFound ? hollowBody(found.task, found.cavity) : inputBody(found.task)).mass);
 }
 
+/// With the levels of contents that the bound's quadric was found for.
+void takeLevels(const OptimalBound& bound, Search& found) {
+  Fillings& fillings = found.task.model.fillings;
+  if (bound.binding.size() > fillings.size()) fillings = bound.binding;
+}
+
+/// What of an offset surface's cavity is left when its ceilings carry themselves.
+void carryCeilings(const Preparation& model, const Foundation& foundation, const Options& options,
+                   ProgressBar& bar, Search& found) {
+  if (found.cavity.status != CavityStatus::Found || found.cavity.cavity.faces.rows() == 0) return;
+  if (!foundation.possible) return;
+  bar.show(Schedule::kEnd, "Ceilings that carry themselves");
+  const Possible& possible = *foundation.possible;
+  const TriangleMesh offsets = submesh(found.cavity.inner, found.cavity.cavity.faces).mesh;
+  const Printable carried =
+      printable(*model.goal, options.weights, model.solidMoments, possible.states,
+                resolvedParts(model.surface, model.posed.wall), possible.deliverable,
+                possible.bound, overhangWishes(model.posed, options), &offsets);
+  takeLevels(possible.bound, found);
+  CavityTask task = found.task;
+  task.bound = carried.bound;
+  CavityResult cavity = bestPossibleCavity(task, carried.set);
+  cavity.effort += found.cavity.effort;
+  found.cavity = std::move(cavity);
+  judge(model, options, found);
+}
+
 /// Takes it where it is asked for or serves better: within the outer surface as it has become.
 void considerBestPossible(const Preparation& model, const Foundation& foundation,
                           const Options& options, ProgressBar& bar, Search& found) {
   found.shapeReason = "as asked for";
-  if (options.cavityShape == CavityShape::Offset) return;
+  if (options.cavityShape == CavityShape::Offset) {
+    if (options.overhangAngle > 0.0) carryCeilings(model, foundation, options, bar, found);
+    return;
+  }
   if (model.posed.open) {
     found.shapeReason = "the best possible cavity needs a closed surface";
     return;
@@ -362,9 +395,7 @@ void considerBestPossible(const Preparation& model, const Foundation& foundation
   const std::string reason = reasonForBestPossible(options, possible->bound, found);
   if (reason.empty()) return;
   bar.show(Schedule::kEnd, "Best possible cavity");
-  // With the levels of contents that its quadric was found for.
-  Fillings& fillings = found.task.model.fillings;
-  if (possible->bound.binding.size() > fillings.size()) fillings = possible->bound.binding;
+  takeLevels(possible->bound, found);
   CavityResult best;
   if (moved) {
     best = bestPossibleCavity(moved->task(found.task, *possible), possible->deliverable);

@@ -93,7 +93,6 @@ const std::vector<std::pair<std::string, std::string>>& refused() {
       {"surface", "overhang_angle"},
       {"outer_upper_bound", "overhang_angle"},
       {"cavity_infill", "overhang_angle"},
-      {"offset surface", "overhang_angle"},
   };
   return pairs;
 }

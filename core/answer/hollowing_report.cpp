@@ -357,8 +357,11 @@ int solidVertices(const CavityTask& task, const CavityResult& cavity) {
   return static_cast<int>(std::count(mark.begin(), mark.end(), 1));
 }
 
-std::string shapeOf(const CavityResult& cavity) {
-  return cavity.shape == CavityShape::BestPossible ? "best possible: " : "offset surface: ";
+/// An offset surface is one, too, when its ceilings have been filled.
+std::string shapeOf(const CavityResult& cavity, const Options& options) {
+  const bool isOffset =
+      cavity.shape == CavityShape::Offset || options.cavityShape == CavityShape::Offset;
+  return isOffset ? "offset surface: " : "best possible: ";
 }
 
 /// What the answer cost.
@@ -450,7 +453,7 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Ve
   addRepairs(stages.repairs, report);
   report.add("skeleton_failures", stages.skeletonFailures);
   if (posed.open) report.add("openings", posed.open->openings);
-  if (hasCavity) report.add("cavity_shape", shapeOf(cavity) + stages.shapeReason);
+  if (hasCavity) report.add("cavity_shape", shapeOf(cavity, options) + stages.shapeReason);
   if (cavity.shape == CavityShape::Offset) {
     report.add("solid_vertices", solidVertices(task, cavity));
   }

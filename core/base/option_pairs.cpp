@@ -58,10 +58,6 @@ const std::vector<RefusedPair>& refusedPairs() {
        "to 0."},
       {[](const Options& o, bool) { return overhangs(o) && hasInfill(o); },
        "Infill carries the ceiling of its cavity: set overhang_angle or cavity_infill to 0."},
-      {[](const Options& o, bool) { return overhangs(o) && o.cavityShape == CavityShape::Offset; },
-       "The ceilings of an offset surface do not carry themselves: set cavity_shape to Automatic "
-       "or "
-       "Best possible, or overhang_angle to 0."},
       {[](const Options& o, bool isOpen) { return isOpen && overhangs(o); },
        "The cavity of an open surface has no ceiling to be carried: set overhang_angle to 0, or "
        "close the surface with Remeshing > Close Holes."},

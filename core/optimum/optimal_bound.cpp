@@ -211,16 +211,17 @@ std::vector<Moments> findBody(const Goal& goal, const Weights& weights, const Mo
   return states;
 }
 
-/// Hollow above a plane where a mass is all that is wanted and cells can have it: any body of it
-/// will do, and a local search may stop where nothing is hollow. The plane goes through the middle
-/// of the cell of which a part is hollow. No states where there is no such body.
+/// Hollow above a plane where a mass is all that is wanted: any body of it will do, and a local
+/// search may stop where nothing is hollow, or all cells in part. The plane goes through the middle
+/// of the cell of which a part is hollow; where the cells are too few all of them are. No states
+/// where the solid body comes nearest.
 std::vector<Moments> takeBodyOfMass(const Goal& goal, const Weights& weights, const Moments& solid,
                                     const Fillings& fillings, const AdmissibleCells& cells,
                                     OptimalBound& bound) {
   const std::optional<double> mass = goal.wantedMass();
   if (!mass) return {};
   const double volume = (solid[0] - *mass) / (1.0 - fillings.front().density);
-  if (!(volume > 0.0 && volume <= cells.col(0).sum())) return {};
+  if (!(volume > 0.0) || cells.rows() == 0) return {};
   const auto heightOf = [&](Eigen::Index c) { return cells(c, 3) / cells(c, 0); };
   std::vector<Eigen::Index> fromAbove(static_cast<std::size_t>(cells.rows()));
   std::iota(fromAbove.begin(), fromAbove.end(), Eigen::Index{0});
@@ -240,7 +241,9 @@ std::vector<Moments> takeBodyOfMass(const Goal& goal, const Weights& weights, co
   }
   bound.massMoments = states.front();
   bound.objective = momentObjective(goal, weights, states, 1.0 - cavity[0] / solid[0]);
-  bound.worth = LayeredQuadric::ofOneLayer(Moments::Unit(3) - height * Moments::Unit(0));
+  const bool isAll = cavity[0] < volume;
+  bound.worth = LayeredQuadric::ofOneLayer(
+      isAll ? Moments(Moments::Unit(0)) : Moments(Moments::Unit(3) - height * Moments::Unit(0)));
   return states;
 }
 
@@ -333,11 +336,9 @@ void findBest(const Goal& goal, const Weights& weights, const Moments& solid,
     bound.objective = momentObjective(goal, unconstrained, chosen(states, binding), 1.0);
   } else {
     const Fillings whole = chosen(fillings, bindingStates(fillings, nullptr));
-    states = findBody(goal, weights, solid, whole, cells, bound);
-    if (largestViolation(goal, states) > OptimalBound::kReachable) {
-      std::vector<Moments> other = takeBodyOfMass(goal, weights, solid, whole, cells, bound);
-      if (!other.empty()) states = std::move(other);
-    }
+    if (weights.constraints > 0.0)
+      states = takeBodyOfMass(goal, weights, solid, whole, cells, bound);
+    if (states.empty()) states = findBody(goal, weights, solid, whole, cells, bound);
   }
   if (weights.volume == 0.0) bound.measure = measure(goal, states);
   bound.violation = largestViolation(goal, states);

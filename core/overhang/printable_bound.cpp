@@ -65,7 +65,8 @@ Ceiling ceilingOf(const Printable& found, const OverhangWishes& wishes) {
 
 Printable printable(const Goal& goal, const Weights& weights, const Moments& solid,
                     const Fillings& fillings, const RegionParts& behindWalls, const OpenedSet& set,
-                    const OptimalBound& possible, const OverhangWishes& wishes) {
+                    const OptimalBound& possible, const OverhangWishes& wishes,
+                    const TriangleMesh* within) {
   const auto best = [&](const Printable& found) {
     const AdmissibleCells cells = cellsOf(partsWithin(found.set, behindWalls));
     return withBodyWithin(cells, found.bound, goal, weights, solid, fillings);
@@ -82,14 +83,20 @@ Printable printable(const Goal& goal, const Weights& weights, const Moments& sol
     OverhangWishes tried = wishes;
     tried.halfThickness = attempt.halfThickness;
     tried.edge = attempt.edge;
-    const SupportingFill none(set, tried);
+    SupportingFill none(set, tried);
+    Printable unfilled{possible, set};
+    if (within != nullptr) {
+      none.keepWithin(*within);
+      unfilled.set.fill = std::make_shared<const GridFunction>(none.function());
+      unfilled.bound = best(unfilled);
+    }
     std::optional<Trial> chosen;
     for (const auto& [some, more] : {std::pair(0.0, 0.3), {0.2, 0.13}}) {
       std::optional<Trial> trials[2];
       const auto start = [&](std::optional<Trial>& trial, double spacing) {
         SupportingFill fill = none;
         if (spacing > 0.0) fill.allowPillars(spacing);
-        trial.emplace(Printable{possible, set}, std::move(fill));
+        trial.emplace(unfilled, std::move(fill));
         trial->improve(kFirstRounds, best);
       };
       inParallel([&, spacing = some] { start(trials[0], spacing); },
@@ -98,7 +105,8 @@ Printable printable(const Goal& goal, const Weights& weights, const Moments& sol
         if (!chosen || isBetter(trial->found().bound, chosen->found().bound))
           chosen.emplace(*std::move(trial));
       }
-      if (!chosen->found().set.fill) return chosen->found(); // nothing has to be carried
+      if (chosen->found().set.fill == unfilled.set.fill)
+        return chosen->found(); // nothing has to be carried
     }
     chosen->improve(kRounds, best);
     for (int round = 0; round < kColumnRounds; ++round) {

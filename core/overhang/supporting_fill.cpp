@@ -3,10 +3,13 @@
 #include "core/base/parallel.h"
 #include "core/contour/region.h"
 #include "core/overhang/layer_distance.h"
+#include "core/query/point_in_mesh.h"
+#include "core/query/triangle_tree.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -36,11 +39,14 @@ Grid gridAround(const TriangleTree& surface, const Mat3& rotation, double edge) 
   return grid;
 }
 
-/// Values of what the walls leave at the nodes of a block, by halves where its border comes near.
-class InsetSampler {
+/// A signed length at a point, exact up to a horizon.
+using Length = std::function<double(const Vec3& x, double horizon)>;
+
+/// Values at the nodes of a block, by halves where they vanish.
+class BlockSampler {
 public:
-  InsetSampler(const Region& region, const Grid& grid, std::vector<float>& values)
-      : probe_(region), grid_(grid), values_(values) {}
+  BlockSampler(Length length, const Grid& grid, std::vector<float>& values)
+      : length_(std::move(length)), grid_(grid), values_(values) {}
 
   void visit(const Eigen::Array3i& low, int size) {
     const Eigen::Array3i high = (low + size).min(grid_.counts);
@@ -48,11 +54,9 @@ public:
     const int half = size / 2;
     const Eigen::Array3i middle = (low + half).min(grid_.counts - 1);
     const double radius = std::sqrt(3.0) * half;
-    const double value =
-        probe_
-            .at(grid_.positionOf(middle.x(), middle.y(), middle.z()), (radius + kBand) * grid_.edge)
-            .value /
-        grid_.edge;
+    const double value = length_(grid_.positionOf(middle.x(), middle.y(), middle.z()),
+                                 (radius + kBand) * grid_.edge) /
+                         grid_.edge;
     if (size == 1 || std::abs(value) >= radius + kBand) {
       const float kept = std::clamp(static_cast<float>(value), -kBand, kBand);
       for (int k = low.z(); k < high.z(); ++k) {
@@ -66,9 +70,41 @@ public:
   }
 
 private:
-  InsetProbe probe_;
+  Length length_;
   const Grid& grid_;
   std::vector<float>& values_;
+};
+
+/// Of every node of the grid, at most `kBand` edges. `makeLength`: for each block anew, for it may
+/// remember the last one.
+void sample(const Grid& grid, const std::function<Length()>& makeLength,
+            std::vector<float>& values) {
+  constexpr int kBlock = 16;
+  const Eigen::Array3i blocks = (grid.counts + kBlock - 1) / kBlock;
+  forChunks(blocks.prod(), 1, [&](const Chunk& chunk) {
+    const auto n = static_cast<int>(chunk.number);
+    const Eigen::Array3i block(n % blocks.x(), n / blocks.x() % blocks.y(),
+                               n / (blocks.x() * blocks.y()));
+    BlockSampler(makeLength(), grid, values).visit(kBlock * block, kBlock);
+  });
+}
+
+/// How deep points are in a closed outward surface.
+class Depth {
+public:
+  explicit Depth(const TriangleTree& surface) : surface_(surface), inside_(surface) {}
+
+  double operator()(const Vec3& x, double horizon) {
+    near_ = surface_.nearest(x, horizon * horizon, near_.face);
+    const bool isNear = near_.face >= 0;
+    const bool isInside = isNear ? inside_.contains(x, near_) : inside_.contains(x);
+    return (isInside ? 1.0 : -1.0) * (isNear ? std::sqrt(near_.squaredDistance) : horizon);
+  }
+
+private:
+  const TriangleTree& surface_;
+  PointInMesh inside_;
+  TriangleTree::Hit near_;
 };
 
 /// A layer's values, linear between nodes.
@@ -391,7 +427,21 @@ SupportingFill::SupportingFill(const OpenedSet& set, const OverhangWishes& wishe
   halfThickness_ = static_cast<float>(wishes.halfThickness * std::max(set.edge / grid_.edge, 1.0));
   inset_.assign(at(grid_.nodes()), -kBand);
   fill_.assign(at(grid_.nodes()), kBand);
-  sample();
+  const Region region{set_.surface, set_.wall, &*set_.deep};
+  sample(
+      grid_,
+      [&] {
+        return [probe = InsetProbe(region)](const Vec3& x, double horizon) mutable {
+          return probe.at(x, horizon).value;
+        };
+      },
+      inset_);
+}
+
+void SupportingFill::keepWithin(const TriangleMesh& cavity) {
+  const TriangleTree surface(cavity.vertices, cavity.faces);
+  sample(
+      grid_, [&] { return Depth(surface); }, fill_);
 }
 
 void SupportingFill::allowPillars(double spacing) {
@@ -407,18 +457,6 @@ void SupportingFill::allowPillars(double spacing) {
       pillars_.emplace_back(first + static_cast<float>(column) * inRow,
                             static_cast<float>(row) * betweenRows);
   }
-}
-
-void SupportingFill::sample() {
-  constexpr int kBlock = 16;
-  const Region region{set_.surface, set_.wall, &*set_.deep};
-  const Eigen::Array3i blocks = (grid_.counts + kBlock - 1) / kBlock;
-  forChunks(blocks.prod(), 1, [&](const Chunk& chunk) {
-    const auto n = static_cast<int>(chunk.number);
-    const Eigen::Array3i block(n % blocks.x(), n / blocks.x() % blocks.y(),
-                               n / (blocks.x() * blocks.y()));
-    InsetSampler(region, grid_, inset_).visit(kBlock * block, kBlock);
-  });
 }
 
 double SupportingFill::add(const LayeredQuadric& quadric) {

@@ -1,6 +1,7 @@
 // What carries a cavity's ceiling while it is printed.
 #pragma once
 
+#include "core/base/types.h"
 #include "core/contour/opened_set.h"
 #include "core/optimum/layered_quadric.h"
 #include "core/query/grid_function.h"
@@ -30,6 +31,9 @@ public:
   /// \pre points of the set exist
   SupportingFill(const OpenedSet& set, const OverhangWishes& wishes);
 
+  /// The cavity stays within this surface, which is closed and outward. Before anything is added.
+  void keepWithin(const TriangleMesh& cavity);
+
   /// Pillars on a grid of triangles with edges of this length may carry, not walls alone. Before
   /// anything is added.
   void allowPillars(double spacing);
@@ -46,7 +50,6 @@ public:
   GridFunction function() const { return {grid_, fill_}; }
 
 private:
-  void sample();
   /// Above and below it through what is no cavity, so that nothing opens between fill and wall.
   void join(const std::vector<char>& isHollow, std::vector<float>& fresh) const;
 
