@@ -15,6 +15,9 @@
 #include "core/model/mending.h"
 #include "core/optimum/foot_depth.h"
 #include "core/optimum/volume_bound.h"
+#include "core/overhang/ceiling.h"
+#include "core/overhang/printable_bound.h"
+#include "core/overhang/supporting_fill.h"
 #include "core/print/print_project.h"
 #include "core/print/whole_file.h"
 #include "core/reduced/hollow_body.h"
@@ -261,8 +264,7 @@ OverhangWishes overhangWishes(const PosedModel& posed, const Options& options) {
 
 /// Empty: the wall leaves no room. `solid`: moments of the body within the surface.
 std::optional<Possible> possibleWithin(const TriangleTree& surface, double wall, const Goal& goal,
-                                       const Moments& solid, const OverhangWishes& wishes,
-                                       const Options& options) {
+                                       const Moments& solid, const Options& options) {
   const RegionParts behindWalls = resolvedParts(surface, wall);
   const AdmissibleCells cells = cellsOf(behindWalls);
   if (cells.rows() == 0) return std::nullopt;
@@ -274,9 +276,6 @@ std::optional<Possible> possibleWithin(const TriangleTree& surface, double wall,
   if (wide.col(0).sum() < cells.col(0).sum())
     bound = withBodyWithin(wide, std::move(bound), goal, weights, solid, states);
   Possible result{cells, std::move(bound), std::move(deliverable), std::move(states)};
-  if (options.overhangAngle > 0.0 && options.cavityShape != CavityShape::Offset)
-    result.printable.emplace(printable(goal, weights, solid, result.states, behindWalls,
-                                       result.deliverable, result.bound, wishes));
   return result;
 }
 
@@ -344,22 +343,56 @@ void takeLevels(const OptimalBound& bound, Search& found) {
   if (bound.binding.size() > fillings.size()) fillings = bound.binding;
 }
 
+/// The best that was found of those whose ceilings carry themselves; where its triangles hang down
+/// nevertheless, with columns below. `within`: null, or a closed outward surface that it does not
+/// leave.
+CavityResult carriedCavity(const Preparation& model, const Possible& possible,
+                           const Options& options, const TriangleMesh* within, CavityTask task) {
+  const RegionParts behindWalls = resolvedParts(model.surface, model.posed.wall);
+  const OverhangWishes wishes = overhangWishes(model.posed, options);
+  const PrintableTask printing{*model.goal,     options.weights, model.solidMoments,
+                               possible.states, behindWalls,     wishes,
+                               within};
+  const auto tipsOf = [&](const CavityResult& cavity) {
+    return ceilingOf({cavity.inner, cavity.cavity.faces}, wishes.toPrint, wishes.leastAngle,
+                     wishes.tipDepth)
+        .tips;
+  };
+  constexpr int kRounds = 4;
+  CavityResult best;
+  std::size_t fewest = 0;
+  SearchEffort effort;
+  const Stopwatch time;
+  std::optional<Printable> found = printable(printing, possible.deliverable, possible.bound);
+  for (int round = 0; round < kRounds; ++round) {
+    task.bound = found->bound;
+    const Cubes cubes = round == 0 ? Cubes::AsFineAsItTakes : Cubes::OfTheSet;
+    CavityResult cavity = bestPossibleCavity(task, found->set, cubes);
+    effort += cavity.effort;
+    const bool isFound = cavity.status == CavityStatus::Found;
+    const std::vector<Vec3> tips = isFound ? tipsOf(cavity) : std::vector<Vec3>{};
+    if (round == 0 || (isFound && tips.size() < fewest)) {
+      best = std::move(cavity);
+      fewest = tips.size();
+    }
+    if (tips.empty() || !found->filled || round + 1 == kRounds) break;
+    found.emplace(withColumns(printing, *found, tips));
+    found->set.edge = best.edge;
+  }
+  effort.secondsOptimization = time.seconds() - effort.secondsInspection;
+  best.effort = effort;
+  return best;
+}
+
 /// What of an offset surface's cavity is left when its ceilings carry themselves.
 void carryCeilings(const Preparation& model, const Foundation& foundation, const Options& options,
                    ProgressBar& bar, Search& found) {
   if (found.cavity.status != CavityStatus::Found || found.cavity.cavity.faces.rows() == 0) return;
   if (!foundation.possible) return;
   bar.show(Schedule::kEnd, "Ceilings that carry themselves");
-  const Possible& possible = *foundation.possible;
+  takeLevels(foundation.possible->bound, found);
   const TriangleMesh offsets = submesh(found.cavity.inner, found.cavity.cavity.faces).mesh;
-  const Printable carried =
-      printable(*model.goal, options.weights, model.solidMoments, possible.states,
-                resolvedParts(model.surface, model.posed.wall), possible.deliverable,
-                possible.bound, overhangWishes(model.posed, options), &offsets);
-  takeLevels(possible.bound, found);
-  CavityTask task = found.task;
-  task.bound = carried.bound;
-  CavityResult cavity = bestPossibleCavity(task, carried.set);
+  CavityResult cavity = carriedCavity(model, *foundation.possible, options, &offsets, found.task);
   cavity.effort += found.cavity.effort;
   found.cavity = std::move(cavity);
   judge(model, options, found);
@@ -384,7 +417,7 @@ void considerBestPossible(const Preparation& model, const Foundation& foundation
                      : nullptr;
   const std::optional<Possible> possibleInMoved =
       moved ? possibleWithin(moved->surface, model.posed.wall, moved->goal(found.task),
-                             moved->solidMoments, {}, options)
+                             moved->solidMoments, options)
             : std::nullopt;
   const std::optional<Possible>& possible = moved ? possibleInMoved : foundation.possible;
   if (!possible) {
@@ -402,10 +435,9 @@ void considerBestPossible(const Preparation& model, const Foundation& foundation
     best.outer = moved->surface.vertices();
     best.outerOffsets = found.cavity.outerOffsets;
   } else {
-    CavityTask task = found.task;
-    if (possible->printable) task.bound = possible->printable->bound;
-    best = bestPossibleCavity(task, possible->printable ? possible->printable->set
-                                                        : possible->deliverable);
+    best = options.overhangAngle > 0.0
+               ? carriedCavity(model, *possible, options, nullptr, found.task)
+               : bestPossibleCavity(found.task, possible->deliverable);
   }
   best.effort += found.cavity.effort;
   if ((movesInwards(model, options) || hasMoved) && !servesBetter(found.task, best, found.cavity)) {
@@ -547,8 +579,7 @@ Foundation coarsen(const Preparation& model, const Options& options, ProgressBar
     if (moves(options) || model.posed.open) return;
     const Stopwatch time;
     std::optional<Possible> possible =
-        possibleWithin(model.surface, model.posed.wall, *model.goal, model.solidMoments,
-                       overhangWishes(model.posed, options), options);
+        possibleWithin(model.surface, model.posed.wall, *model.goal, model.solidMoments, options);
     if (possible) result.possible.emplace(std::move(*possible));
     result.secondsBound = time.seconds();
   };

@@ -13,7 +13,6 @@
 #include "core/model/solid.h"
 #include "core/optimum/certificate.h"
 #include "core/optimum/optimal_bound.h"
-#include "core/overhang/printable_bound.h"
 #include "core/pipeline.h"
 #include "core/query/triangle_tree.h"
 #include "core/reduced/cavity_search.h"
@@ -102,8 +101,6 @@ struct Possible {
   /// In which it is to serve the goal: where there is more than one, with every level of contents
   /// between the bound's cells.
   Fillings states;
-  /// Where ceilings are to carry themselves: the best of the cavities that do.
-  std::optional<Printable> printable = {};
 };
 
 /// What moves inwards, if anything does, and what the best of all cavities could do.

@@ -255,6 +255,7 @@ Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, double farth
     if (result.inspection.isClean()) break;
   }
   result.shape = CavityShape::BestPossible;
+  result.edge = deliverable.edge;
   if (result.status == CavityStatus::Found) {
     if (!result.inspection.isClean()) {
       // There is room, but none of the surfaces passed.
@@ -268,10 +269,11 @@ Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, double farth
   return {std::move(result), true};
 }
 
+constexpr double kAll = std::numeric_limits<double>::infinity();
+
 /// In finer cubes where those of the set lose too much.
 CavityResult inFineCubes(const CavityTask& task, OpenedSet deliverable) {
   // What cubes lose goes with the square of their edge, what they take as well.
-  constexpr double kAll = std::numeric_limits<double>::infinity();
   constexpr std::array<double, 3> kEnough{0.015, 0.025, kAll}; // of what is possible is left
   constexpr double kSlack = 1.1;                               // before all is polished
   constexpr double kWanted = 0.01;
@@ -336,7 +338,7 @@ OpenedSet deliverableSet(const TriangleTree& surface, double wall, const RegionP
   return openedSet(surface, wall, std::max(edge, kLeastEdge));
 }
 
-CavityResult bestPossibleCavity(const CavityTask& task, const OpenedSet& deliverable) {
+CavityResult bestPossibleCavity(const CavityTask& task, const OpenedSet& deliverable, Cubes cubes) {
   const Stopwatch time;
   std::optional<CavityResult> walled;
   if (!deliverable.fill) walled = uniformlyWalled(task, deliverable.edge);
@@ -344,7 +346,8 @@ CavityResult bestPossibleCavity(const CavityTask& task, const OpenedSet& deliver
     walled->effort.secondsOptimization = time.seconds() - walled->effort.secondsInspection;
     return std::move(*walled);
   }
-  CavityResult result = inFineCubes(task, deliverable);
+  CavityResult result = cubes == Cubes::OfTheSet ? cavityOf(task, deliverable, kAll).result
+                                                 : inFineCubes(task, deliverable);
   result.effort.secondsOptimization = time.seconds() - result.effort.secondsInspection;
   return result;
 }

@@ -13,11 +13,15 @@ namespace massprops {
 OpenedSet deliverableSet(const TriangleTree& surface, double wall, const RegionParts& behindWall,
                          const AdmissibleCells& cells);
 
+/// Whether finer cubes than those of the set are tried where these lose too much.
+enum class Cubes { AsFineAsItTakes, OfTheSet };
+
 /// The part of what can be delivered on the positive side of the bound's quadric: its surface,
 /// adjusted so that the body of these triangles keeps the constraints. Passed inspection, as with
 /// `searchCavity`; status NoGain: the solid body serves the goal at least as well. The outer
 /// surface rests. \pre there is a bound, the surface is closed
-CavityResult bestPossibleCavity(const CavityTask& task, const OpenedSet& deliverable);
+CavityResult bestPossibleCavity(const CavityTask& task, const OpenedSet& deliverable,
+                                Cubes cubes = Cubes::AsFineAsItTakes);
 
 /// As `largestWall`, for a best possible cavity.
 double largestWallForBestPossible(const CavityTask& task,

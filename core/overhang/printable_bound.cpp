@@ -4,7 +4,6 @@
 #include "core/contour/cavity_contour.h"
 #include "core/overhang/ceiling.h"
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -18,60 +17,71 @@ bool isBetter(const OptimalBound& a, const OptimalBound& b) {
   return a.measure && b.measure ? *a.measure > *b.measure : a.objective < b.objective;
 }
 
+OptimalBound bestWithin(const PrintableTask& task, const Printable& found) {
+  const AdmissibleCells cells = cellsOf(partsWithin(found.set, task.behindWalls));
+  return withBodyWithin(cells, found.bound, task.goal, task.weights, task.solid, task.fillings);
+}
+
 /// A body and what is filled for it.
 class Trial {
 public:
-  Trial(Printable unfilled, SupportingFill fill)
-      : fill_(std::move(fill)), found_(std::move(unfilled)) {}
+  /// `found`: with nothing filled but what `fill` has already.
+  Trial(const PrintableTask& task, Printable found, SupportingFill fill)
+      : task_(task), fill_(std::move(fill)), found_(std::move(found)) {}
 
-  const Printable& found() const { return found_; }
+  Printable found() const {
+    Printable result = found_;
+    if (isFilled_) result.filled = std::make_shared<const SupportingFill>(fill_);
+    return result;
+  }
+  const OptimalBound& bound() const { return found_.bound; }
+  bool isFilled() const { return isFilled_; }
 
   /// Rounds of filling and of finding the best body in what is left, until hardly anything is
-  /// filled; `best`: such a body in a set.
-  void improve(int rounds, const std::function<OptimalBound(const Printable&)>& best) {
+  /// filled.
+  void improve(int rounds) {
     constexpr double kHardlyAnything = 3e-4; // of the cavity
     for (int round = 0; round < rounds && !isDone_; ++round) {
       const double share = fill_.add(found_.bound.worth);
       isDone_ = share < kHardlyAnything;
       if (share == 0.0) return;
-      found_.set.fill = std::make_shared<const GridFunction>(fill_.function());
-      found_.bound = best(found_);
+      takeFill();
     }
   }
 
   /// Puts columns below what hangs down.
-  void stand(const std::vector<Vec3>& tips,
-             const std::function<OptimalBound(const Printable&)>& best) {
+  void stand(const std::vector<Vec3>& tips) {
     fill_.addColumns(tips);
-    found_.set.fill = std::make_shared<const GridFunction>(fill_.function());
-    found_.bound = best(found_);
+    takeFill();
     isDone_ = false;
   }
 
+  /// As it is delivered, but for finer cubes and what polishing changes.
+  Ceiling ceiling() const {
+    const std::optional<CavityContour> cavity = cavityContour(found_.set, found_.bound.worth);
+    if (!cavity || cavity->contour.mesh.faces.rows() == 0) return {};
+    const OverhangWishes& wishes = task_.wishes;
+    return ceilingOf(cavity->contour.mesh, wishes.toPrint, wishes.leastAngle, wishes.tipDepth);
+  }
+
 private:
+  void takeFill() {
+    isFilled_ = true;
+    found_.set.fill = std::make_shared<const GridFunction>(fill_.function());
+    found_.bound = bestWithin(task_, found_);
+  }
+
+  const PrintableTask& task_;
   SupportingFill fill_;
   Printable found_;
-  bool isDone_ = false;
+  bool isDone_ = false, isFilled_ = false;
 };
 
-/// As it is delivered, but for what polishing changes.
-Ceiling ceilingOf(const Printable& found, const OverhangWishes& wishes) {
-  const std::optional<CavityContour> cavity = cavityContour(found.set, found.bound.worth);
-  if (!cavity || cavity->contour.mesh.faces.rows() == 0) return {};
-  return ceilingOf(cavity->contour.mesh, wishes.toPrint, wishes.leastAngle, wishes.tipDepth);
-}
+constexpr int kFirstRounds = 2; // they tell which spacing serves best
 
 } // namespace
 
-Printable printable(const Goal& goal, const Weights& weights, const Moments& solid,
-                    const Fillings& fillings, const RegionParts& behindWalls, const OpenedSet& set,
-                    const OptimalBound& possible, const OverhangWishes& wishes,
-                    const TriangleMesh* within) {
-  const auto best = [&](const Printable& found) {
-    const AdmissibleCells cells = cellsOf(partsWithin(found.set, behindWalls));
-    return withBodyWithin(cells, found.bound, goal, weights, solid, fillings);
-  };
-  constexpr int kFirstRounds = 2; // they tell which spacing serves best
+Printable printable(const PrintableTask& task, const OpenedSet& set, const OptimalBound& possible) {
   constexpr int kRounds = 8;
   constexpr int kColumnRounds = 4;
   std::optional<Printable> first;
@@ -80,15 +90,15 @@ Printable printable(const Goal& goal, const Weights& weights, const Moments& sol
     double halfThickness, edge;
   };
   for (const Attempt& attempt : {Attempt{0.8, 0.2}, Attempt{1.0, 0.175}, Attempt{1.4, 0.15}}) {
-    OverhangWishes tried = wishes;
+    OverhangWishes tried = task.wishes;
     tried.halfThickness = attempt.halfThickness;
     tried.edge = attempt.edge;
     SupportingFill none(set, tried);
     Printable unfilled{possible, set};
-    if (within != nullptr) {
-      none.keepWithin(*within);
+    if (task.within != nullptr) {
+      none.keepWithin(*task.within);
       unfilled.set.fill = std::make_shared<const GridFunction>(none.function());
-      unfilled.bound = best(unfilled);
+      unfilled.bound = bestWithin(task, unfilled);
     }
     std::optional<Trial> chosen;
     for (const auto& [some, more] : {std::pair(0.0, 0.3), {0.2, 0.13}}) {
@@ -96,29 +106,35 @@ Printable printable(const Goal& goal, const Weights& weights, const Moments& sol
       const auto start = [&](std::optional<Trial>& trial, double spacing) {
         SupportingFill fill = none;
         if (spacing > 0.0) fill.allowPillars(spacing);
-        trial.emplace(unfilled, std::move(fill));
-        trial->improve(kFirstRounds, best);
+        trial.emplace(task, unfilled, std::move(fill));
+        trial->improve(kFirstRounds);
       };
       inParallel([&, spacing = some] { start(trials[0], spacing); },
                  [&, spacing = more] { start(trials[1], spacing); });
       for (std::optional<Trial>& trial : trials) {
-        if (!chosen || isBetter(trial->found().bound, chosen->found().bound))
-          chosen.emplace(*std::move(trial));
+        if (!chosen || isBetter(trial->bound(), chosen->bound())) chosen.emplace(*std::move(trial));
       }
-      if (chosen->found().set.fill == unfilled.set.fill)
-        return chosen->found(); // nothing has to be carried
+      if (!chosen->isFilled()) return chosen->found(); // nothing has to be carried
     }
-    chosen->improve(kRounds, best);
+    chosen->improve(kRounds);
     for (int round = 0; round < kColumnRounds; ++round) {
-      const Ceiling ceiling = ceilingOf(chosen->found(), wishes);
-      if (ceiling.tips.empty() && ceiling.widestSpan <= wishes.bridge) return chosen->found();
+      const Ceiling ceiling = chosen->ceiling();
+      if (ceiling.tips.empty() && ceiling.widestSpan <= task.wishes.bridge) return chosen->found();
       if (ceiling.tips.empty()) break;
-      chosen->stand(ceiling.tips, best);
-      chosen->improve(kFirstRounds, best);
+      chosen->stand(ceiling.tips);
+      chosen->improve(kFirstRounds);
     }
     if (!first) first.emplace(chosen->found());
   }
   return *std::move(first);
+}
+
+Printable withColumns(const PrintableTask& task, const Printable& printable,
+                      const std::vector<Vec3>& tips) {
+  Trial trial(task, printable, *printable.filled);
+  trial.stand(tips);
+  trial.improve(kFirstRounds);
+  return trial.found();
 }
 
 } // namespace massprops

@@ -5,22 +5,36 @@
 #include "core/optimum/optimal_bound.h"
 #include "core/overhang/supporting_fill.h"
 
+#include <memory>
+#include <vector>
+
 namespace massprops {
 
 /// A body whose cavity prints without support inside.
 struct Printable {
-  OptimalBound bound; ///< the proofs are those of all cavities
-  OpenedSet set;      ///< what it may take
+  OptimalBound bound;                                ///< the proofs are those of all cavities
+  OpenedSet set;                                     ///< what it may take
+  std::shared_ptr<const SupportingFill> filled = {}; ///< null: nothing
+};
+
+/// What a cavity is to do, and where.
+struct PrintableTask {
+  const Goal& goal;
+  const Weights& weights;
+  const Moments& solid;
+  const Fillings& fillings;
+  const RegionParts& behindWalls; ///< before the set was opened
+  const OverhangWishes& wishes;
+  const TriangleMesh* within = nullptr; ///< closed, outward, it is not left; null: none
 };
 
 /// What carries the ceilings of the best body's cavity is filled and the best body found anew in
 /// what is left, until it needs no more: a local optimum, not a bound. The best of several spacings
-/// between pillars. `possible`: the best body in the set; `behindWalls`: what it was found in,
-/// before the set was opened. `within`: null, or a closed outward surface that the cavity does not
-/// leave.
-Printable printable(const Goal& goal, const Weights& weights, const Moments& solid,
-                    const Fillings& fillings, const RegionParts& behindWalls, const OpenedSet& set,
-                    const OptimalBound& possible, const OverhangWishes& wishes,
-                    const TriangleMesh* within = nullptr);
+/// between pillars. `possible`: the best body in the set.
+Printable printable(const PrintableTask& task, const OpenedSet& set, const OptimalBound& possible);
+
+/// With columns below what hangs down. \pre something is filled
+Printable withColumns(const PrintableTask& task, const Printable& printable,
+                      const std::vector<Vec3>& tips);
 
 } // namespace massprops
