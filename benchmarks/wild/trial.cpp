@@ -316,11 +316,15 @@ void tryOut(const Case& c, const Limits& limits, const std::function<void(const 
   } else if (trial.outcome == Outcome::NothingFits) {
     trial.deepest = testing::depthOf(model, wall).atMost / wall;
     if (c.asked->goal == GoalKind::Stand && trial.deepest > kNarrow && !trial.isTurned) {
-      const testing::StandingGain angles =
-          testing::standingGain(result.outer ? *result.outer : model, wall);
-      // Else it stands on something else.
-      if (std::abs(angles.solid - trial.before) < kSmallGain)
-        trial.gain = angles.best - angles.solid;
+      // Finer cubes only where coarse ones, which are in doubt too many, tell of a gain.
+      for (const double side : {0.5 * wall, 0.25 * wall}) {
+        const testing::StandingGain angles =
+            testing::standingGain(result.outer ? *result.outer : model, wall, side);
+        // Else it stands on something else.
+        if (std::abs(angles.solid - trial.before) < kSmallGain)
+          trial.gain = angles.best - angles.solid;
+        if (trial.gain <= kSmallGain) break;
+      }
     }
   }
   trial.isJudged = true;

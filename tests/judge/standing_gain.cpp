@@ -7,9 +7,11 @@
 #include <CGAL/convex_hull_2.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <vector>
 
@@ -53,16 +55,46 @@ double firmness(const std::vector<Edge>& edges, double floor, const Vec3& centre
   return inside / (centre.z() - floor);
 }
 
+/// Those that a ball of this radius reaches around one of the middles.
+std::vector<Cell> reached(const std::vector<Cell>& cells, const std::vector<Cell>& middles,
+                          double radius) {
+  // Middles by cubes as wide as the radius: one that is near enough is next door.
+  std::map<std::array<long, 3>, std::vector<Vec3>> places;
+  const auto placeOf = [&](const Vec3& p) {
+    return std::array<long, 3>{std::lround(p.x() / radius), std::lround(p.y() / radius),
+                               std::lround(p.z() / radius)};
+  };
+  for (const Cell& cell : middles) places[placeOf(cell.middle)].push_back(cell.middle);
+  const auto isReached = [&](const Vec3& p) {
+    const std::array<long, 3> place = placeOf(p);
+    for (int i = 0; i < 27; ++i) {
+      const auto there =
+          places.find({place[0] + i % 3 - 1, place[1] + i / 3 % 3 - 1, place[2] + i / 9 - 1});
+      if (there == places.end()) continue;
+      for (const Vec3& q : there->second)
+        if ((p - q).norm() <= radius) return true;
+    }
+    return false;
+  };
+  std::vector<Cell> result;
+  std::copy_if(cells.begin(), cells.end(), std::back_inserter(result),
+               [&](const Cell& cell) { return isReached(cell.middle); });
+  return result;
+}
+
 } // namespace
 
-StandingGain standingGain(const TriangleMesh& model, double wall) {
+StandingGain standingGain(const TriangleMesh& model, double wall, double side) {
   const double floor = model.vertices.col(2).minCoeff();
   const std::vector<Edge> edges = edgesOfContact(model, floor);
   if (edges.empty()) {
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     return {kNone, kNone};
   }
-  const std::vector<Cell> cells = cellsDeeperThan(model, wall, 0.5 * wall);
+  const double half = std::sqrt(0.75) * side;
+  const std::vector<Cell> cells =
+      reached(cellsDeeperThan(model, wall, side), cellsDeeperThan(model, 1.5 * wall - half, side),
+              0.5 * wall + half);
   const auto moments = quadratureMoments(model);
   const Vec3 firstMoments(moments[1], moments[2], moments[3]);
   const double solid = firmness(edges, floor, firstMoments / moments[0]);

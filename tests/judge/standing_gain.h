@@ -12,9 +12,9 @@ struct StandingGain {
   double best; ///< with the best cavity
 };
 
-/// Of all that is deeper than `wall`, in cubes of at most half of it, the cavity is what lies on
-/// one side of a plane, as the best one does [HLW24]: 2,000 directions are tried, each at every
-/// distance. `model`: closed, +z is up.
-StandingGain standingGain(const TriangleMesh& model, double wall);
+/// Of all that is deeper than `wall` and in balls as wide as it, in cubes of at most `side` and in
+/// doubt too much, the cavity is what lies on one side of a plane, as the best one does [HLW24]:
+/// 2,000 directions are tried, each at every distance. `model`: closed, +z is up.
+StandingGain standingGain(const TriangleMesh& model, double wall, double side);
 
 } // namespace massprops::testing
