@@ -111,8 +111,11 @@ CavityTask taskOf(const Goal& goal, const Preparation& model, const Foundation& 
   task.inputMoments = model.solidMoments + moments(posed.cavities.vertices, posed.cavities.faces);
   task.wall = posed.wall;
   if (foundation.possible) task.bound = foundation.possible->bound;
-  task.deliverable = [&](const Points& working) {
-    return toWorking(posed.frame, representable(options, toModel(posed.frame, working)));
+  task.stored = [&](const Points& working) {
+    return representable(options, toModel(posed.frame, working));
+  };
+  task.deliverable = [&, stored = task.stored](const Points& working) {
+    return toWorking(posed.frame, stored(working));
   };
   return task;
 }
@@ -326,6 +329,7 @@ struct Moved {
     task.wall = search.wall;
     task.bound = possible.bound;
     task.deliverable = search.deliverable;
+    task.stored = search.stored;
     return task;
   }
 };

@@ -118,7 +118,7 @@ private:
   void inspectResult(CavityResult& result) {
     const Stopwatch time;
     result.inspection = inspect(result.inner, result.cavity.faces, task_.surface, task_.wall, false,
-                                LookFirst::ForAll, &clearance_);
+                                LookFirst::ForAll, &clearance_, task_.stored);
     secondsInspection_ += time.seconds();
   }
 
@@ -316,7 +316,8 @@ std::optional<CavityResult> uniformlyWalled(const CavityTask& task, double edge)
   if (!cavity) return {};
   CavityResult result = resultOf(task, *cavity);
   const Stopwatch time;
-  result.inspection = inspect(result.inner, result.cavity.faces, task.surface, task.wall, false);
+  result.inspection = inspect(result.inner, result.cavity.faces, task.surface, task.wall, false,
+                              LookFirst::ForAll, nullptr, task.stored);
   result.effort.secondsInspection = time.seconds();
   result.effort.rounds = 1;
   result.stopReason = "walls as thick everywhere as the mass asks for";

@@ -42,6 +42,14 @@ void add(const std::vector<int>& more, std::vector<int>& list) {
   list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
+/// Of faces that cross each other or have no area, ascending.
+std::vector<int> foldedVertices(const Points& points, const Faces& faces,
+                                TriangleTree::Order order = TriangleTree::Order::Any) {
+  const std::vector<int> folded = selfIntersectingFaces(points, faces, order);
+  const std::vector<int> flat = facesWithoutArea(points, faces);
+  return verticesOf(faces, {&folded, &flat});
+}
+
 std::vector<int> thinnerThan(double wall, const Eigen::Ref<const Vector>& walls) {
   std::vector<int> thin;
   for (Eigen::Index v = 0; v < walls.size(); ++v) {
@@ -53,13 +61,12 @@ std::vector<int> thinnerThan(double wall, const Eigen::Ref<const Vector>& walls)
 } // namespace
 
 Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleTree& outer,
-                   double wall, bool outerMoved, LookFirst first, ClearanceQuery* clearance) {
+                   double wall, bool outerMoved, LookFirst first, ClearanceQuery* clearance,
+                   const std::function<Points(const Points&)>& stored) {
   Inspection inspection;
   const auto takeFolds = [&] {
-    const std::vector<int> folded =
-        selfIntersectingFaces(inner, innerFaces, TriangleTree::Order::Spatial);
-    const std::vector<int> flat = facesWithoutArea(inner, innerFaces);
-    add(verticesOf(innerFaces, {&folded, &flat}), inspection.crossing);
+    add(foldedVertices(stored ? stored(inner) : inner, innerFaces, TriangleTree::Order::Spatial),
+        inspection.crossing);
   };
   const auto takeWall = [&] {
     ClearanceQuery fresh(outer);
@@ -81,7 +88,10 @@ Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleT
     takeWall();
   }
   if (outerMoved) {
-    const std::vector<int> outerFolds = selfIntersectingFaces(outer);
+    const std::vector<int> outerFolds =
+        stored ? selfIntersectingFaces(stored(outer.vertices()), outer.faces(),
+                                       TriangleTree::Order::Spatial)
+               : selfIntersectingFaces(outer);
     inspection.outerCrossing = verticesOf(outer.faces(), {&outerFolds});
   }
 
@@ -101,13 +111,11 @@ Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleT
 }
 
 Inspection inspectShell(const Points& positions, const Faces& cavity, const TriangleTree& skin,
-                        double wall) {
+                        double wall, const std::function<Points(const Points&)>& stored) {
   const Eigen::Index n = positions.rows() / 2;
   Inspection inspection;
   const Faces shell = shellOf(skin.faces(), cavity, n);
-  const std::vector<int> folded = selfIntersectingFaces(positions, shell);
-  const std::vector<int> flat = facesWithoutArea(positions, shell);
-  std::vector<int> bad = verticesOf(shell, {&folded, &flat});
+  std::vector<int> bad = foldedVertices(stored ? stored(positions) : positions, shell);
   if (bad.empty()) {
     const Components parts = connectedComponents(positions.rows(), shell);
     const std::vector<int> depths = nestingDepths(positions, parts);

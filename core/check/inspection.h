@@ -5,6 +5,7 @@
 #include "core/query/surface_distance.h"
 #include "core/query/triangle_tree.h"
 
+#include <functional>
 #include <vector>
 
 namespace massprops {
@@ -34,17 +35,20 @@ enum class LookFirst { ForAll, ForFolds, ForThinWalls };
 /// are a wall apart do not cross.
 /// `inner`, `innerFaces`: the cavity, outward oriented as a body of its own. `wall`: wanted
 /// distance, same unit. `outerMoved`: whether the outer surface may cross itself. `clearance`:
-/// null, or made for `outer`; several inspections with one take less time.
+/// null, or made for `outer`; several inspections with one take less time. `stored`: empty, or the
+/// points as the caller gets them, where faces must not cross, either: what just passes by in one
+/// frame may touch in another, for both are rounded.
 Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleTree& outer,
                    double wall, bool outerMoved, LookFirst first = LookFirst::ForAll,
-                   ClearanceQuery* clearance = nullptr);
+                   ClearanceQuery* clearance = nullptr,
+                   const std::function<Points(const Points&)>& stored = {});
 
 /// An inspection of the shell of an open surface (open_surface.h): skin, offset surface and strips
 /// together are free of crossings and bound the material, and the offset surface, strips apart,
 /// keeps the wall from the skin. `positions`: 2n×3, the last n those of the skin; `wall`,
 /// `nearestFace` have 2n entries, the latter faces of the skin, the wall being 0 on the skin
-/// itself; `crossing` and `thin` are vertices below n.
+/// itself; `crossing` and `thin` are vertices below n. `stored`: as above.
 Inspection inspectShell(const Points& positions, const Faces& cavity, const TriangleTree& skin,
-                        double wall);
+                        double wall, const std::function<Points(const Points&)>& stored = {});
 
 } // namespace massprops

@@ -57,7 +57,8 @@ public:
     result.effort.evaluations += done.evaluations;
     result.effort.secondsOptimization += time.seconds();
     const Stopwatch inspection;
-    result.inspection = inspect(result.inner, result.cavity.faces, outer, task_.wall, false);
+    result.inspection = inspect(result.inner, result.cavity.faces, outer, task_.wall, false,
+                                LookFirst::ForAll, nullptr, task_.stored);
     result.effort.secondsInspection += inspection.seconds();
     return result;
   }

@@ -238,12 +238,14 @@ bool closesOpening(const CavityTask& task, const std::vector<char>& solid) {
 Inspection inspectResult(const CavityTask& task, const CavityResult& result, LookFirst first,
                          ClearanceQuery& clearance) {
   const Faces& cavity = result.cavity.faces;
-  if (task.open != nullptr) return inspectShell(result.inner, cavity, task.surface, task.wall);
+  if (task.open != nullptr)
+    return inspectShell(result.inner, cavity, task.surface, task.wall, task.stored);
   if (task.model.outer) {
     const TriangleTree moved(result.outer, task.surface.faces(), TriangleTree::Order::Spatial);
-    return inspect(result.inner, cavity, moved, task.wall, true, first);
+    return inspect(result.inner, cavity, moved, task.wall, true, first, nullptr, task.stored);
   }
-  return inspect(result.inner, cavity, task.surface, task.wall, false, first, &clearance);
+  return inspect(result.inner, cavity, task.surface, task.wall, false, first, &clearance,
+                 task.stored);
 }
 
 /// One search from the middle of the bounds to a cavity that passes inspection, in rounds.

@@ -32,6 +32,8 @@ struct CavityTask {
   std::function<std::unique_ptr<Goal>(const Points&)> goalFor = {};
   /// Rounds working positions to those that can be delivered, still in the working frame.
   std::function<Points(const Points&)> deliverable = {};
+  /// Empty, or the same where the caller gets them.
+  std::function<Points(const Points&)> stored = {};
   /// Null: the surface is closed. Otherwise the outer surface rests, and is what moves inwards.
   const OpenSurface* open = nullptr;
 };

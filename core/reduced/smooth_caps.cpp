@@ -145,7 +145,7 @@ CavityResult Capping::run() {
     std::optional<CavityResult> result = closed(rough);
     if (!result) break;
     result->inspection = inspect(result->inner, result->cavity.faces, outer(), task_.wall, false,
-                                 LookFirst::ForAll, found_.clearance.get());
+                                 LookFirst::ForAll, found_.clearance.get(), task_.stored);
     if (result->inspection.isClean()) {
       if (isWorthIt(*result)) return *result;
       giveUpCostliest(*result, rough.end);

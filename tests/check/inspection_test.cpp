@@ -31,5 +31,23 @@ TEST(Inspection, LetsNoWallPassThatIsThinnerThanTheWantedOne) {
   }
 }
 
+TEST(Inspection, SeesFacesThatTouchOnlyWhereTheyAreStored) {
+  const TriangleMesh outer = box({1.0, 1.0, 1.0}, 4);
+  // A pyramid whose tip is a hair above its base.
+  const TriangleMesh inner =
+      scaled(tetrahedron({1, 0, 0}, {0, 1, 0}, {-1, -1, 0}, {0, 0, 1e-9}), 0.3);
+  const TriangleTree tree(outer.vertices, outer.faces);
+  const auto isClean = [&](double step) {
+    const auto rounded = [&](const Points& points) {
+      return Points((points.array() / step).round() * step);
+    };
+    return inspect(inner.vertices, inner.faces, tree, 0.01, false, LookFirst::ForAll, nullptr,
+                   rounded)
+        .isClean();
+  };
+  EXPECT_TRUE(isClean(1e-12));
+  EXPECT_FALSE(isClean(1e-6));
+}
+
 } // namespace
 } // namespace massprops::testing
