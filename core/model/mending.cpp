@@ -74,14 +74,20 @@ bool isVase(const RepairedMesh& manifold, MendingTask task) {
   }
 }
 
-/// Whether no body is lacking and nothing hollow is filled, judged by what the triangles enclose,
-/// which is not certain where bodies face inwards.
-bool hasVolumeOf(const TriangleMesh& mesh, const Solid& solid) {
-  constexpr double kLeast = 0.75;
-  constexpr double kMost = 1.5;
+/// The solid's volume by what the triangles enclose, which is not certain where bodies face
+/// inwards.
+double shareOfVolume(const TriangleMesh& mesh, const Solid& solid) {
   const WindingVolume volumes = windingVolumes(mesh, {solid.vertices(), solid.faces()});
-  return volumes.otherVolume >= kLeast * volumes.volume &&
-         volumes.otherVolume <= kMost * volumes.volume;
+  return volumes.otherVolume / volumes.volume;
+}
+
+constexpr double kLeastShare = 0.75;
+constexpr double kMostShare = 1.5;
+
+/// Whether no body is lacking and nothing hollow is filled.
+bool hasVolumeOf(const TriangleMesh& mesh, const Solid& solid) {
+  const double share = shareOfVolume(mesh, solid);
+  return share >= kLeastShare && share <= kMostShare;
 }
 
 /// `closing`: the step that closes what is open.
@@ -114,13 +120,8 @@ constexpr const char* kWasOpen =
     "The surface has an opening like a vase's, but no shell can be made of it: it was closed, so "
     "look at the new outer surface.";
 
-} // namespace
-
-std::optional<Solid> mended(const TriangleMesh& input, const MendingTask& task) {
-  RepairedMesh manifold = mergedAndCompacted(input);
-  take(kToManifold, task, manifold);
-  if (task.keepsOpenings) return solidOf(manifold, task);
-
+/// By steps, the wrap being the last of them.
+std::optional<Solid> mendedFrom(RepairedMesh manifold, const MendingTask& task) {
   MendingStep closing = closedHoles;
   try {
     std::optional<Solid> solid = solidFrom(manifold, closing, task);
@@ -139,6 +140,24 @@ std::optional<Solid> mended(const TriangleMesh& input, const MendingTask& task) 
   // What was tried since is left to the wrap, but for holes that it need not find again.
   take({closing, wrapped}, task, manifold);
   return solidOf(manifold, task);
+}
+
+} // namespace
+
+std::optional<Solid> mended(const TriangleMesh& input, const MendingTask& task) {
+  RepairedMesh given = mergedAndCompacted(input);
+  RepairedMesh manifold = given;
+  const bool isChanged = take(kToManifold, task, manifold);
+  if (task.keepsOpenings) return solidOf(manifold, task);
+
+  std::optional<Solid> solid = mendedFrom(std::move(manifold), task);
+  if (!solid || !isChanged) return solid;
+  const double share = shareOfVolume(given.mesh, *solid);
+  if (share >= kLeastShare) return solid;
+  // What was turned over or left out as a sheet on the way was a body's.
+  take({wrappedClosely}, task, given);
+  std::optional<Solid> whole = solidOf(given, task);
+  return whole && shareOfVolume(given.mesh, *whole) > share ? whole : solid;
 }
 
 } // namespace massprops

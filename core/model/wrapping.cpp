@@ -152,9 +152,8 @@ std::string percent(double share) {
          "." + std::to_string(static_cast<int>(std::abs(tenths)) % 10) + " %";
 }
 
-} // namespace
-
-MendedMesh wrapped(const TriangleMesh& input, const MendingTask& task) {
+/// `kept`: least share of what the triangles enclose.
+MendedMesh wrappedKeeping(double kept, const TriangleMesh& input, const MendingTask& task) {
   if (input.faces.rows() == 0) return {input};
   const double diagonal = diagonalOf(input.vertices);
   const double offset = std::min(0.25 * task.wall, diagonal / 400.0);
@@ -164,14 +163,13 @@ MendedMesh wrapped(const TriangleMesh& input, const MendingTask& task) {
   if (!(volume > kNothing * std::pow(diagonal, 3))) return {input};
 
   // A ball that fits through a hole leaves the hollow inside.
-  constexpr double kKept = 0.9;
   constexpr double kLarger = 1.5;
   const double holes = radiusOfHoles(input, surface, 0.5 * kFinestBall * diagonal);
   std::optional<TriangleMesh> wrap;
   for (double ball = std::clamp(holes, kFinestBall * diagonal, kCoarsestBall * diagonal);
        !wrap && ball <= kCoarsestBall * diagonal; ball *= kLarger) {
     wrap = wrapOf(input, ball, offset);
-    if (wrap && signedVolume(wrap->vertices, wrap->faces) < kKept * volume) wrap.reset();
+    if (wrap && signedVolume(wrap->vertices, wrap->faces) < kept * volume) wrap.reset();
   }
   if (!wrap) return {input};
   wrap = tightened(*wrap, surface, offset, task);
@@ -181,18 +179,31 @@ MendedMesh wrapped(const TriangleMesh& input, const MendingTask& task) {
   const TriangleTree tree(result.mesh.vertices, result.mesh.faces);
   result.distance = std::max(greatestDistance(result.mesh.vertices, result.mesh.faces, surface),
                              greatestDistance(input.vertices, visibleFaces(input), tree));
+  const bool isVolumeKnown = kept > 0.0;
   const WindingVolume volumes = windingVolumes(input, result.mesh);
   const double change = volumes.otherVolume / volumes.volume - 1.0;
-  result.done = "wrapped, volume " + percent(change);
-  if (result.distance > task.wall || std::abs(change) > kMostVolume) {
-    result.warning =
-        "The model could not be mended piece by piece and was wrapped anew: its surface moved by "
-        "up to " +
-        percent(result.distance / diagonal).substr(1) +
-        " of the diagonal and its volume changed by " + percent(change) +
-        ", so look at the new outer surface.";
-  }
+  result.done = isVolumeKnown ? "wrapped, volume " + percent(change) : "wrapped";
+  if (isVolumeKnown && result.distance <= task.wall && std::abs(change) <= kMostVolume)
+    return result;
+  result.warning =
+      "The model could not be mended piece by piece and was wrapped anew: its surface moved by up "
+      "to " +
+      percent(result.distance / diagonal).substr(1) + " of the diagonal and " +
+      (isVolumeKnown ? "its volume changed by " + percent(change)
+                     : "its volume cannot be compared, for its triangles face every way") +
+      ", so look at the new outer surface.";
   return result;
+}
+
+} // namespace
+
+MendedMesh wrapped(const TriangleMesh& input, const MendingTask& task) {
+  constexpr double kKept = 0.9;
+  return wrappedKeeping(kKept, input, task);
+}
+
+MendedMesh wrappedClosely(const TriangleMesh& input, const MendingTask& task) {
+  return wrappedKeeping(0.0, input, task);
 }
 
 } // namespace massprops

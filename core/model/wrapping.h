@@ -12,4 +12,8 @@ namespace massprops {
 /// Nothing is done where the triangles enclose nothing.
 MendedMesh wrapped(const TriangleMesh& input, const MendingTask& task);
 
+/// The same with the first of these balls, whatever becomes of the volume: where triangles that
+/// face every way do not tell it.
+MendedMesh wrappedClosely(const TriangleMesh& input, const MendingTask& task);
+
 } // namespace massprops
