@@ -229,7 +229,7 @@ std::vector<Cell> cellsDeeperThan(const TriangleMesh& mesh, double depth, double
     if (cube > side) {
       forHalved(middle, cube, add);
     } else if (distance >= depth && winding.isInside(middle)) {
-      cells.push_back({middle, cube * cube * cube});
+      cells.push_back({middle, cube * cube * cube, distance});
     }
   };
   const Eigen::AlignedBox3d box = boxOf(mesh);

@@ -31,6 +31,7 @@ Depth depthOf(const TriangleMesh& mesh, double least);
 struct Cell {
   Vec3 middle;
   double volume; ///< length³
+  double depth;  ///< of its middle
 };
 
 /// Cubes of at most this side whose middles are inside and at least that far from the surface.

@@ -55,16 +55,16 @@ double firmness(const std::vector<Edge>& edges, double floor, const Vec3& centre
   return inside / (centre.z() - floor);
 }
 
-/// Those that a ball of this radius reaches around one of the middles.
-std::vector<Cell> reached(const std::vector<Cell>& cells, const std::vector<Cell>& middles,
-                          double radius) {
+/// Those that a ball of this radius reaches around one that is at least so deep.
+std::vector<Cell> reached(const std::vector<Cell>& cells, double depth, double radius) {
   // Middles by cubes as wide as the radius: one that is near enough is next door.
   std::map<std::array<long, 3>, std::vector<Vec3>> places;
   const auto placeOf = [&](const Vec3& p) {
     return std::array<long, 3>{std::lround(p.x() / radius), std::lround(p.y() / radius),
                                std::lround(p.z() / radius)};
   };
-  for (const Cell& cell : middles) places[placeOf(cell.middle)].push_back(cell.middle);
+  for (const Cell& cell : cells)
+    if (cell.depth >= depth) places[placeOf(cell.middle)].push_back(cell.middle);
   const auto isReached = [&](const Vec3& p) {
     const std::array<long, 3> place = placeOf(p);
     for (int i = 0; i < 27; ++i) {
@@ -93,8 +93,7 @@ StandingGain standingGain(const TriangleMesh& model, double wall, double side) {
   }
   const double half = std::sqrt(0.75) * side;
   const std::vector<Cell> cells =
-      reached(cellsDeeperThan(model, wall, side), cellsDeeperThan(model, 1.5 * wall - half, side),
-              0.5 * wall + half);
+      reached(cellsDeeperThan(model, wall, side), 1.5 * wall - half, 0.5 * wall + half);
   const auto moments = quadratureMoments(model);
   const Vec3 firstMoments(moments[1], moments[2], moments[3]);
   const double solid = firmness(edges, floor, firstMoments / moments[0]);
