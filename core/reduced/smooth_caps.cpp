@@ -246,12 +246,13 @@ std::optional<CavityResult> Capping::closed(const Capped& capped) const {
   for (int round = 0; round < kRounds; ++round) {
     if (!keepsConstraints(result) && !press(*caps->skin, atWall, result)) return std::nullopt;
     TriangleMesh mesh{result.inner, result.cavity.faces};
-    keepWall(clearance, kBeyondWall * task_.wall, mesh, rests);
+    const bool isThin = !keepWall(clearance, kBeyondWall * task_.wall, mesh, rests).empty();
     if (mesh.vertices == result.inner) break;
     for (Eigen::Index v = n_; v < mesh.vertices.rows(); ++v) {
       if (mesh.vertices.row(v) != result.inner.row(v)) atWall[at(v)] = 1;
     }
     result.inner = std::move(mesh.vertices);
+    if (isThin) break; // the ends where it is are given up: more rounds are slow and in vain
   }
   result.inner = task_.deliverable(result.inner);
   return std::move(result);
