@@ -155,12 +155,17 @@ void addDrainage(const PosedModel& posed, const Verdict& verdict, const Body& pl
 std::string whatLeavesNoRoom(const CavityTask& task, const Options& options) {
   if (task.open != nullptr) return "there is no room for an open shell with this wall: ";
   const bool isAngleGiven = options.overhangAngle > 0.0;
+  // An offset surface is looked for before its ceilings are filled.
+  const bool isOffset = options.cavityShape == CavityShape::Offset;
+  const bool countsAngle = isAngleGiven && !isOffset;
   const std::string nothing = "nothing can be hollowed at this wall";
   if (task.surface.keepsOut()) {
-    return nothing + (isAngleGiven ? ", solid depth and overhang angle" : " and solid depth") +
+    return nothing + (countsAngle ? ", solid depth and overhang angle" : " and solid depth") +
            ": select fewer faces, or lower solid_depth" +
-           (isAngleGiven ? " or overhang_angle" : "") + "; without these, ";
+           (countsAngle ? " or overhang_angle" : "") + "; without these" +
+           (isAngleGiven && isOffset ? " and overhang_angle, " : ", ");
   }
+  if (isAngleGiven && isOffset) return nothing + ", whatever overhang_angle is; without it, ";
   return nothing +
          (isAngleGiven ? " and overhang angle: lower overhang_angle; without it, " : ": ");
 }

@@ -129,6 +129,11 @@ TEST(Printable, LargestWallIsThatWithoutTheAngle) {
   EXPECT_NE(std::get<std::string>(nothing.report.at("message"))
                 .find("lower overhang_angle; without it, lower inner_lower_bound to "),
             std::string::npos);
+  options.cavityShape = CavityShape::Offset;
+  EXPECT_NE(std::get<std::string>(optimizeMassProperties(model, options).report.at("message"))
+                .find("at this wall, whatever overhang_angle is; without it, lower "),
+            std::string::npos);
+  options.cavityShape = CavityShape::Automatic;
   options.innerLowerBound = 0.99 * number(nothing, "largest_wall");
   options.overhangAngle = 0.0;
   EXPECT_GT(optimizeMassProperties(model, options).inner.faces.rows(), 0);
