@@ -1,8 +1,8 @@
 #include "core/answer/print_margins.h"
 
 #include "core/base/triangle.h"
-#include "core/mesh/signed_volume.h"
 #include "core/optimum/admissible_cells.h"
+#include "core/optimum/parts_cut.h"
 #include "core/physics/moments.h"
 #include "core/reduced/hollow_body.h"
 
@@ -38,18 +38,19 @@ double greatestDeviation(double most, const std::function<bool(double)>& holds) 
 /// What a slicer prints as infill: moments of the material farther than the perimeters from its
 /// surfaces.
 Moments deepMaterial(const CavityTask& task, const CavityResult& cavity, double perimeters) {
-  const Faces& outer = task.surface.faces();
-  const Faces& inner = cavity.cavity.faces;
-  Points vertices(cavity.outer.rows() + cavity.inner.rows(), 3);
-  vertices << cavity.outer, cavity.inner;
-  Faces faces(outer.rows() + inner.rows(), 3);
-  Faces flipped = inner.array() + static_cast<int>(cavity.outer.rows());
-  flip(flipped);
-  faces << outer, flipped;
   // Thin sheets between the perimeters of two surfaces ask for small cells.
   constexpr int kCells = 200000;
-  const AdmissibleCells cells =
-      admissibleCells({vertices, faces, TriangleTree::Order::Any}, perimeters, kCells);
+  const TriangleTree& given = task.surface;
+  const auto deepIn = [&](const TriangleTree& outer) {
+    return admissibleParts(outer, perimeters, kCells);
+  };
+  // A tree of the model costs as much as all else here.
+  const bool isGiven = !given.keepsOut() && cavity.outer == given.vertices();
+  const RegionParts solid =
+      isGiven ? deepIn(given) : deepIn({cavity.outer, given.faces(), TriangleTree::Order::Spatial});
+  const TriangleTree inner(cavity.inner, cavity.cavity.faces);
+  const bool isHollow = cavity.cavity.faces.rows() > 0;
+  const AdmissibleCells cells = cellsOf(isHollow ? partsOutside(inner, perimeters, solid) : solid);
   return cells.rows() > 0 ? Moments(cells.colwise().sum().transpose()) : Moments(Moments::Zero());
 }
 

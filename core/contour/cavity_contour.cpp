@@ -118,7 +118,7 @@ std::optional<CavityContour> cavityContour(const OpenedSet& set,
   if (!set.deep) return CavityContour{{}, set.edge, fresh};
   const double leastVolume = std::pow(set.width, 3);
   // Vertices on the border shall not count as too near for their last digits.
-  constexpr double kMore = 1e-4;
+  constexpr double kMore = 1e-3;
   const Region region{set.surface,   (1.0 + kMore) * set.wall, &*set.deep, quadric, set.edge,
                       set.fill.get()};
   BorderLattice lattice = borderLattice(region, set.edge);

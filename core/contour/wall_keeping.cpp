@@ -1,5 +1,6 @@
 #include "core/contour/wall_keeping.h"
 
+#include "core/base/parallel.h"
 #include "core/base/triangle.h"
 #include "core/contour/shape_guard.h"
 
@@ -11,7 +12,7 @@ namespace massprops {
 namespace {
 
 constexpr double kMore = 1.05;  // than what is missing, for the direction turns on the way
-constexpr double kLeast = 1e-4; // of the wall
+constexpr double kLeast = 3e-4; // of the wall
 
 /// By how much the walls of the faces around each vertex are too thin.
 Vector shortfalls(double wall, const Vector& distanceOfFace, const Faces& faces,
@@ -48,18 +49,23 @@ std::vector<int> positive(const Vector& values) {
 void moveInwards(const ClearanceQuery& clearance, double wall, const Vector& missing, double more,
                  TriangleMesh& cavity) {
   const TriangleTree& surface = clearance.other();
+  constexpr Eigen::Index kRun = 256;
   Points targets = cavity.vertices;
   const Points normals = vertexNormals(cavity.vertices, cavity.faces);
-  for (const int v : positive(missing)) {
-    const Vec3 x = cavity.vertices.row(v).transpose();
-    constexpr double kAnywhere = std::numeric_limits<double>::infinity();
-    const int near = clearance.nearestFace()[static_cast<std::size_t>(v)];
-    const Vec3 next = surface.clearance(x, surface.nearest(x, kAnywhere, near)).point;
-    const Vec3 inwards = -normals.row(v).transpose();
-    // Where a face bulges, away from its corner's nearest point is not away from the face's.
-    targets.row(v) += ((kMore + more) * missing[v] + kLeast * wall) *
-                      ((x - next).normalized() + inwards).normalized().transpose();
-  }
+  const std::vector<int> thin = positive(missing);
+  forChunks(static_cast<Eigen::Index>(thin.size()), kRun, [&](const Chunk& chunk) {
+    for (Eigen::Index i = chunk.begin; i < chunk.end; ++i) {
+      const int v = thin[static_cast<std::size_t>(i)];
+      const Vec3 x = cavity.vertices.row(v).transpose();
+      constexpr double kAnywhere = std::numeric_limits<double>::infinity();
+      const int near = clearance.nearestFace()[static_cast<std::size_t>(v)];
+      const Vec3 next = surface.clearance(x, surface.nearest(x, kAnywhere, near)).point;
+      const Vec3 inwards = -normals.row(v).transpose();
+      // Where a face bulges, away from its corner's nearest point is not away from the face's.
+      targets.row(v) += ((kMore + more) * missing[v] + kLeast * wall) *
+                        ((x - next).normalized() + inwards).normalized().transpose();
+    }
+  });
   moveSoundly(targets, cavity.faces, cavity.vertices);
 }
 

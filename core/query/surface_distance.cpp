@@ -16,7 +16,7 @@ constexpr Eigen::Index kChunk = 1024;
 constexpr double kRounding = 1e-12;
 /// The search goes a little beyond the horizon: so far a face may move before the next measurement
 /// has to look at it again.
-constexpr double kBeyond = 1.001;
+constexpr double kBeyond = 1.00001;
 
 /// Radius of the smallest ball around the triangle, squared, given its sides' squares.
 double squaredRadius(double ab, double bc, double ca) {

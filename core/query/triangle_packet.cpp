@@ -54,6 +54,25 @@ Lanes mostOf(const Lanes& a, const Lanes& b, const Lanes& c) {
   return (1.0F - kUnits) * reached * (reached / dot(axis, axis).max(kLeast));
 }
 
+/// So that floats hold the square of its length.
+Vectors scaled(const Vectors& axis) {
+  constexpr float kLeast = 1e-30F;
+  const Lanes scale = 1.0F / absMax(axis).max(kLeast);
+  return {scale * axis.x, scale * axis.y, scale * axis.z};
+}
+
+/// Squared distances that gaps along two axes leave, as far as these are upright on each other:
+/// |w|² ≥ (g₁² + g₂²)/(1 + c) where their cosine is at most c.
+Lanes combined(const Vectors& a, const Lanes& squaredAlongA, const Vectors& b,
+               const Lanes& squaredAlongB) {
+  constexpr float kMostCosine = 1e-5F;
+  const Lanes product = dot(a, b);
+  const Lanes squares = dot(a, a) * dot(b, b);
+  return (product.square() < 0.5F * kMostCosine * kMostCosine * squares)
+      .select((1.0F - kMostCosine) * (squaredAlongA + squaredAlongB),
+              squaredAlongA.max(squaredAlongB));
+}
+
 /// Lower bounds that floats hold: of their least numbers, which are rounded up, nothing is left.
 Lanes certain(const Lanes& squares) {
   return Lanes::Zero()
@@ -73,7 +92,7 @@ void TrianglePacket::set(int i, const Vec3& a, const Vec3& b, const Vec3& c) {
   }
 }
 
-Lanes TrianglePacket::squaredDistances(const Vec3& p, float rounding) const {
+Lanes TrianglePacket::squaredDistances(const Vec3& p, float rounding, double reach) const {
   const Vectors origin = broadcast(p);
   const Vectors t[3] = {corners_[0] - origin, corners_[1] - origin, corners_[2] - origin};
   const Lanes size = mostOf(absMax(t[0]), absMax(t[1]), absMax(t[2]));
@@ -85,33 +104,124 @@ Lanes TrianglePacket::squaredDistances(const Vec3& p, float rounding) const {
   const Lanes y = Lanes::Zero().max(gap(t[0].y, t[1].y, t[2].y) - error);
   const Lanes z = Lanes::Zero().max(gap(t[0].z, t[1].z, t[2].z) - error);
   const Lanes ofBoxes = (1.0F - kUnits) * (x.square() + y.square() + z.square());
-  const Vectors normal = cross(t[1] - t[0], t[2] - t[0]);
-  const Lanes above = gap(dot(normal, t[0]), dot(normal, t[1]), dot(normal, t[2]));
-  const Lanes ofPlanes = squaredLength(above - error * absSum(normal), normal, size);
-  return certain(ofBoxes.max(ofPlanes));
+  const auto along = [&](const Vectors& axis) -> Lanes {
+    const Lanes found = gap(dot(axis, t[0]), dot(axis, t[1]), dot(axis, t[2]));
+    return squaredLength(found - error * absSum(axis), axis, size);
+  };
+  const Vectors normal = scaled(cross(t[1] - t[0], t[2] - t[0]));
+  const Lanes ofPlanes = along(normal);
+  Lanes atLeast = certain(ofBoxes.max(ofPlanes));
+  if (static_cast<double>(atLeast.minCoeff()) >= reach) return atLeast;
+  for (int k = 0; k < 3; ++k) {
+    const Vectors beside = cross(t[(k + 1) % 3] - t[k], normal);
+    atLeast = atLeast.max(certain(combined(normal, ofPlanes, beside, along(beside))));
+  }
+  return atLeast;
+}
+
+Lanes BoxPacket::squaredDistances(const Vec3& p, float rounding) const {
+  const Vectors origin = broadcast(p);
+  const Vectors from = Vectors{lower[0], lower[1], lower[2]} - origin;
+  const Vectors to = Vectors{upper[0], upper[1], upper[2]} - origin;
+  const Lanes error = rounding + kUnits * absMax(from).max(absMax(to));
+  const Lanes x = Lanes::Zero().max(from.x.max(-to.x) - error);
+  const Lanes y = Lanes::Zero().max(from.y.max(-to.y) - error);
+  const Lanes z = Lanes::Zero().max(from.z.max(-to.z) - error);
+  const Lanes ofBoxes = (1.0F - kUnits) * (x.square() + y.square() + z.square());
+  if (normal.isZero()) return certain(ofBoxes);
+  const Vectors axis{Lanes::Constant(normal.x()), Lanes::Constant(normal.y()),
+                     Lanes::Constant(normal.z())};
+  const Lanes at = dot(axis, origin);
+  const Lanes gap = Lanes::Zero().max((above - at).max(at - below) - error * absSum(axis));
+  const Lanes ofPlanes = (1.0F - kUnits) * gap.square();
+  // What lies beside is farther away than the plane.
+  const Vectors middle{0.5F * (from.x + to.x), 0.5F * (from.y + to.y), 0.5F * (from.z + to.z)};
+  const Lanes up = dot(axis, middle);
+  const Vectors beside{middle.x - up * axis.x, middle.y - up * axis.y, middle.z - up * axis.z};
+  const Lanes reach = 0.5F * (beside.x.abs() * (to.x - from.x) + beside.y.abs() * (to.y - from.y) +
+                              beside.z.abs() * (to.z - from.z));
+  const Lanes ofSides =
+      squaredLength(dot(beside, middle) - reach - error * absSum(beside), beside, absMax(middle));
+  return certain(ofBoxes.max(combined(axis, ofPlanes, beside, ofSides)));
 }
 
 QueryTriangle::QueryTriangle(const Vec3& a, const Vec3& b, const Vec3& c)
-    : a_(broadcast(a)), b_(broadcast(b) - a_), c_(broadcast(c) - a_), normal_(cross(b_, c_)),
-      size_(absMax(b_).max(absMax(c_))) {}
+    : a_(broadcast(a)), b_(broadcast(b) - a_), c_(broadcast(c) - a_),
+      size_(absMax(b_).max(absMax(c_))) {
+  const Vec3 sides[3] = {b - a, c - b, a - c};
+  const Vec3* longest = &sides[0];
+  for (const Vec3& side : sides) {
+    if (side.squaredNorm() > longest->squaredNorm()) longest = &side;
+  }
+  const Vec3 along = longest->squaredNorm() > 0.0 ? longest->normalized() : Vec3::UnitX();
+  const Vec3 normal =
+      along.cross(sides[0].squaredNorm() < sides[1].squaredNorm() ? sides[0] : sides[1]);
+  const Vec3 across =
+      normal.squaredNorm() > 0.0 ? along.cross(normal).normalized() : along.unitOrthogonal();
+  const Vec3 axes[3] = {along, across, along.cross(across)};
+  for (int k = 0; k < 3; ++k) {
+    frame_[k] = broadcast(axes[k]);
+    const Lanes ofB = dot(frame_[k], b_);
+    const Lanes ofC = dot(frame_[k], c_);
+    low_[k] = ofB.min(ofC).min(0.0F);
+    high_[k] = ofB.max(ofC).max(0.0F);
+  }
+}
 
 Lanes QueryTriangle::squaredDistances(const TrianglePacket& triangles, float rounding) const {
   const Vectors t[3] = {triangles.corner(0) - a_, triangles.corner(1) - a_,
                         triangles.corner(2) - a_};
   const Lanes size = mostOf(absMax(t[0]), absMax(t[1]), absMax(t[2])).max(size_);
   const Lanes error = rounding + kUnits * size;
-  const auto along = [&](const Vectors& axis) -> Lanes {
+  Lanes inFrame = Lanes::Zero();
+  for (int k = 0; k < 3; ++k) {
+    const Vectors& axis = frame_[k];
     const Lanes p = dot(axis, t[0]);
     const Lanes q = dot(axis, t[1]);
     const Lanes r = dot(axis, t[2]);
-    const Lanes b = dot(axis, b_);
-    const Lanes c = dot(axis, c_);
-    const Lanes gap =
-        (leastOf(p, q, r) - b.max(c).max(0.0F)).max(b.min(c).min(0.0F) - mostOf(p, q, r));
-    return squaredLength(gap - error * absSum(axis), axis, size);
-  };
-  const Lanes ofNormals = along(cross(t[1] - t[0], t[2] - t[0]));
-  return certain(along(normal_).max(ofNormals));
+    const Lanes gap = (leastOf(p, q, r) - high_[k]).max(low_[k] - mostOf(p, q, r));
+    inFrame += Lanes::Zero().max(gap - error * absSum(axis)).square();
+  }
+  const Vectors axis = cross(t[1] - t[0], t[2] - t[0]);
+  const Lanes p = dot(axis, t[0]);
+  const Lanes q = dot(axis, t[1]);
+  const Lanes r = dot(axis, t[2]);
+  const Lanes b = dot(axis, b_);
+  const Lanes c = dot(axis, c_);
+  const Lanes gap =
+      (leastOf(p, q, r) - b.max(c).max(0.0F)).max(b.min(c).min(0.0F) - mostOf(p, q, r));
+  const Lanes ofNormals = squaredLength(gap - error * absSum(axis), axis, size);
+  return certain(((1.0F - kUnits) * inFrame).max(ofNormals));
+}
+
+Lanes QueryTriangle::squaredDistances(const BoxPacket& boxes, float rounding) const {
+  const Lanes* const lower = boxes.lower;
+  const Lanes* const upper = boxes.upper;
+  const Vectors from = Vectors{lower[0], lower[1], lower[2]} - a_;
+  const Vectors to = Vectors{upper[0], upper[1], upper[2]} - a_;
+  const Lanes error = rounding + kUnits * absMax(from).max(absMax(to)).max(size_);
+  const Vectors middle{0.5F * (from.x + to.x), 0.5F * (from.y + to.y), 0.5F * (from.z + to.z)};
+  const Vectors half{0.5F * (to.x - from.x), 0.5F * (to.y - from.y), 0.5F * (to.z - from.z)};
+  Lanes inFrame = Lanes::Zero();
+  for (int k = 0; k < 3; ++k) {
+    const Vectors& axis = frame_[k];
+    const Lanes at = dot(axis, middle);
+    const Lanes reach = axis.x.abs() * half.x + axis.y.abs() * half.y + axis.z.abs() * half.z;
+    const Lanes gap = (at - reach - high_[k]).max(low_[k] - at - reach);
+    inFrame += Lanes::Zero().max(gap - error * absSum(axis)).square();
+  }
+  Lanes atLeast = (1.0F - kUnits) * inFrame;
+  if (boxes.normal.isZero()) return certain(atLeast);
+  const Vectors normal{Lanes::Constant(boxes.normal.x()), Lanes::Constant(boxes.normal.y()),
+                       Lanes::Constant(boxes.normal.z())};
+  const Lanes at = dot(normal, a_);
+  const Lanes b = dot(normal, b_);
+  const Lanes c = dot(normal, c_);
+  const Lanes low = at + b.min(c).min(0.0F);
+  const Lanes high = at + b.max(c).max(0.0F);
+  const Lanes gap =
+      Lanes::Zero().max((boxes.above - high).max(low - boxes.below) - error * absSum(normal));
+  return certain(atLeast.max((1.0F - kUnits) * gap.square()));
 }
 
 } // namespace massprops

@@ -16,8 +16,9 @@ public:
   /// Triangle i, 0…3. Those that are not set lie in the origin.
   void set(int i, const Vec3& a, const Vec3& b, const Vec3& c);
 
-  /// Not more than the squared distances from a point: those of boxes and planes.
-  Lanes squaredDistances(const Vec3& p, float rounding) const;
+  /// Not more than the squared distances from a point: those of boxes and planes, and where one of
+  /// these is below `reach` those of the triangles themselves but for rounding, corners apart.
+  Lanes squaredDistances(const Vec3& p, float rounding, double reach) const;
 
   struct Vectors {
     Lanes x = Lanes::Zero(), y = Lanes::Zero(), z = Lanes::Zero();
@@ -28,17 +29,34 @@ private:
   Vectors corners_[3];
 };
 
-/// The triangle (a, b, c), to be compared with four at a time.
+/// Four boxes side by side. What they hold lies between two planes each, too, all of one normal: a
+/// piece of surface that is not along the axes is far thinner than its box.
+struct BoxPacket {
+  Lanes lower[3], upper[3];
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero(); ///< unit; 0: nothing is known of planes
+  Lanes above, below; ///< bounds of the inner products with the normal
+
+  /// Not more than the squared distances from a point. `rounding`: as for triangles.
+  Lanes squaredDistances(const Vec3& p, float rounding) const;
+};
+
+/// The triangle (a, b, c), to be compared with four things at a time.
 class QueryTriangle {
 public:
   QueryTriangle(const Vec3& a, const Vec3& b, const Vec3& c);
 
-  /// Not more than the squared distances from the triangles: the gaps along the normals.
+  /// Not more than the squared distances from the triangles: those of boxes turned as this one
+  /// lies, and the gaps along the others' normals.
   Lanes squaredDistances(const TrianglePacket& triangles, float rounding) const;
+  /// Not more than the squared distances from the boxes.
+  Lanes squaredDistances(const BoxPacket& boxes, float rounding) const;
 
 private:
-  TrianglePacket::Vectors a_, b_, c_; ///< the others relative to a, each four times the same
-  TrianglePacket::Vectors normal_;
+  using Vectors = TrianglePacket::Vectors;
+
+  Vectors a_, b_, c_;      ///< the others relative to a, each four times the same
+  Vectors frame_[3];       ///< orthonormal: along a side, across it, normal
+  Lanes low_[3], high_[3]; ///< of the triangle in the frame, relative to a
   Lanes size_;
 };
 

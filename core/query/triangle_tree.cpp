@@ -139,7 +139,7 @@ void TriangleTree::makeBoxes(Queries queries) {
   Eigen::Index nodes = leaves_;
   for (; nodes >= 4; nodes /= 4) {
     for (Eigen::Index i = 0; i < nodes / 4; ++i) {
-      FourBoxes& four = boxes_[static_cast<std::size_t>(nodes / 4 + i)];
+      BoxPacket& four = boxes_[static_cast<std::size_t>(nodes / 4 + i)];
       Box all = level[static_cast<std::size_t>(4 * i)];
       for (int child = 0; child < 4; ++child) {
         const Box& box = level[static_cast<std::size_t>(4 * i + child)];
@@ -152,12 +152,48 @@ void TriangleTree::makeBoxes(Queries queries) {
       level[static_cast<std::size_t>(i)] = all;
     }
   }
+  if (queries == Queries::All) makePlanes();
   roots_ = static_cast<int>(nodes);
   box_ = {level[0].lower.min(level[static_cast<std::size_t>(nodes - 1)].lower),
           level[0].upper.max(level[static_cast<std::size_t>(nodes - 1)].upper)};
   constexpr float kUnits = 8.0F;
   rounding_ = kUnits * std::numeric_limits<float>::epsilon() *
               std::max(box_.lower.abs().maxCoeff(), box_.upper.abs().maxCoeff());
+}
+
+void TriangleTree::makePlanes() {
+  constexpr Eigen::Index kMost = 16; // leaves
+  for (Eigen::Index leaves = 4; leaves <= std::min(kMost, leaves_); leaves *= 4) {
+    const Eigen::Index count = leaves_ / leaves;
+    forChunks(count, kChunk, [&](const Chunk& chunk) {
+      for (Eigen::Index i = chunk.begin; i < chunk.end; ++i)
+        findPlanes(i * leaves, leaves, boxes_[static_cast<std::size_t>(count + i)]);
+    });
+  }
+}
+
+void TriangleTree::findPlanes(Eigen::Index firstLeaf, Eigen::Index leaves, BoxPacket& boxes) const {
+  Vec3 sum = Vec3::Zero();
+  for (Eigen::Index i = firstPlace(firstLeaf); i < firstPlace(firstLeaf + leaves); ++i)
+    sum += areaNormal(vertices_, faces_, faceAt(i));
+  const double length = sum.norm();
+  if (!(length > 0.0)) return;
+  boxes.normal = (sum / length).cast<float>();
+  const Vec3 normal = boxes.normal.cast<double>();
+  for (int child = 0; child < 4; ++child) {
+    const Eigen::Index first = firstLeaf + child * leaves / 4;
+    double low = kInfinity;
+    double high = -kInfinity;
+    for (Eigen::Index i = firstPlace(first); i < firstPlace(first + leaves / 4); ++i) {
+      for (int k = 0; k < 3; ++k) {
+        const double at = normal.dot(corner(faceAt(i), k) - centre_);
+        low = std::min(low, at);
+        high = std::max(high, at);
+      }
+    }
+    boxes.above[child] = below(low);
+    boxes.below[child] = above(high);
+  }
 }
 
 TriangleTree::Box TriangleTree::around(const Vec3& lower, const Vec3& upper) const {
@@ -194,7 +230,7 @@ TriangleTree::Box TriangleTree::boxOf(Eigen::Index begin, Eigen::Index end) cons
   return around(lower, upper);
 }
 
-Lanes TriangleTree::squaredGaps(const FourBoxes& boxes, const Box& other) const {
+Lanes TriangleTree::squaredGaps(const BoxPacket& boxes, const Box& other) const {
   Lanes sum = Lanes::Zero();
   for (int k = 0; k < 3; ++k) {
     // What floats cannot tell counts as no gap.
@@ -237,8 +273,8 @@ void TriangleTree::visitNearest(const Distances& distances, const Reach& reach,
   }
 }
 
-template <class Reach, class Visit>
-void TriangleTree::visitWithin(const Box& box, const Reach& squaredReach,
+template <class Distances, class Reach, class Visit>
+void TriangleTree::visitWithin(const Distances& distances, const Reach& reach,
                                const Visit& visit) const {
   Eigen::Index stack[64];
   int size = 0;
@@ -249,10 +285,10 @@ void TriangleTree::visitWithin(const Box& box, const Reach& squaredReach,
       visit(node - leaves_);
       continue;
     }
-    const Lanes gaps = squaredGaps(boxes_[static_cast<std::size_t>(node)], box);
+    const Lanes found = distances(boxes_[static_cast<std::size_t>(node)]);
     for (int k = 0; k < 4; ++k) {
       stack[size] = 4 * node + k;
-      if (static_cast<double>(gaps[k]) < squaredReach()) ++size;
+      if (static_cast<double>(found[k]) < reach()) ++size;
     }
   }
 }
@@ -276,12 +312,12 @@ TriangleTree::Hit TriangleTree::nearest(const Vec3& p, double squaredBound, int 
         distance > squaredExact ? std::max(squaredExact, distance / (kSlack * kSlack)) : distance;
   };
   if (hintFace >= 0) visit(hintFace);
-  const Box at = around(p, p);
   visitNearest(
-      [&](const FourBoxes& boxes) { return squaredGaps(boxes, at); }, [&] { return reach; },
+      [&](const BoxPacket& boxes) { return boxes.squaredDistances(p - centre_, rounding_); },
+      [&] { return reach; },
       [&](Eigen::Index leaf) {
-        const Lanes atLeast =
-            triangles_[static_cast<std::size_t>(leaf)].squaredDistances(p - centre_, rounding_);
+        const Lanes atLeast = triangles_[static_cast<std::size_t>(leaf)].squaredDistances(
+            p - centre_, rounding_, reach);
         const Eigen::Index begin = firstPlace(leaf);
         const Eigen::Index end = firstPlace(leaf + 1);
         for (Eigen::Index i = begin; i < end; ++i) {
@@ -317,7 +353,10 @@ double TriangleTree::squaredDistance(const Vec3& a, const Vec3& b, const Vec3& c
   };
   // The bound is near the distance most often: no order would bring it down much sooner.
   visitWithin(
-      box, [&] { return least; }, visit);
+      [&](const BoxPacket& boxes) {
+        return squaredGaps(boxes, box).max(query.squaredDistances(boxes, rounding_)).eval();
+      },
+      [&] { return least; }, visit);
   return least;
 }
 
@@ -354,7 +393,7 @@ double TriangleTree::firstHit(const Vec3& start, const Vec3& direction, double l
   const Vec3 inverse = direction.cwiseInverse();
   constexpr double kHuge = std::numeric_limits<double>::max();
   const Vec3 from = start - centre_;
-  const auto entries = [&](const FourBoxes& boxes) -> Eigen::Array4d {
+  const auto entries = [&](const BoxPacket& boxes) -> Eigen::Array4d {
     Eigen::Array4d first = Eigen::Array4d::Zero();
     Eigen::Array4d last = Eigen::Array4d::Constant(best);
     Eigen::Array4d beside = Eigen::Array4d::Zero();

@@ -98,25 +98,24 @@ private:
   struct Box {
     Eigen::Array3f lower, upper;
   };
-  /// Side by side: a distance from all of them takes one instruction a step.
-  struct FourBoxes {
-    Lanes lower[3], upper[3];
-  };
 
   void makeBoxes(Queries queries);
   Box around(const Vec3& lower, const Vec3& upper) const;
   Box boxOf(Eigen::Index begin, Eigen::Index end) const;
   TrianglePacket trianglesOf(Eigen::Index leaf) const;
+  /// Of the boxes around few triangles: what is larger is too curved to be thin.
+  void makePlanes();
+  void findPlanes(Eigen::Index firstLeaf, Eigen::Index leaves, BoxPacket& boxes) const;
   /// Calls visit(leaf) for the leaves in boxes of which `distances`(four boxes) are below
   /// `reach`(), of four the nearest one first; a visit may bring the reach down.
   template <class Distances, class Reach, class Visit>
   void visitNearest(const Distances& distances, const Reach& reach, const Visit& visit) const;
-  /// The same for the squared distances from `box`, in any order.
-  template <class Reach, class Visit>
-  void visitWithin(const Box& box, const Reach& squaredReach, const Visit& visit) const;
+  /// The same in any order.
+  template <class Distances, class Reach, class Visit>
+  void visitWithin(const Distances& distances, const Reach& reach, const Visit& visit) const;
   Eigen::Index firstPlace(Eigen::Index leaf) const { return leaf * faces_.rows() / leaves_; }
   /// Not more than the squared distances of the boxes from `other`.
-  Lanes squaredGaps(const FourBoxes& boxes, const Box& other) const;
+  Lanes squaredGaps(const BoxPacket& boxes, const Box& other) const;
   Vec3 corner(int face, int k) const { return vertices_.row(faces_(face, k)).transpose(); }
 
   /// What a sum with the centre may lose.
@@ -129,7 +128,7 @@ private:
   Eigen::Index leaves_ = 1;    ///< a power of two
   /// The nodes' numbers: the root is 1, the children of i are 2i and 2i + 1. Entry i holds the
   /// boxes of its grandchildren 4i … 4i + 3; every other level is passed over.
-  std::vector<FourBoxes> boxes_;
+  std::vector<BoxPacket> boxes_;
   int roots_ = 1; ///< where a walk begins, for it to end at the leaves: node 1, or nodes 2 and 3
   std::vector<TrianglePacket> triangles_; ///< of the leaves
   const TriangleTree* keptOut_ = nullptr; ///< not this alone, but all within a radius of it
@@ -165,7 +164,7 @@ void TriangleTree::forOverlaps(const Vec3& lower, const Vec3& upper, Eigen::Inde
       for (Eigen::Index i = std::max(from, firstPlace(e.firstLeaf)); i < end; ++i) visit(i);
       continue;
     }
-    const FourBoxes& boxes = boxes_[static_cast<std::size_t>(e.node)];
+    const BoxPacket& boxes = boxes_[static_cast<std::size_t>(e.node)];
     Lanes gap = Lanes::Constant(-std::numeric_limits<float>::infinity());
     for (int k = 0; k < 3; ++k) {
       gap = gap.max(boxes.lower[k] - box.upper[k]).max(box.lower[k] - boxes.upper[k]);

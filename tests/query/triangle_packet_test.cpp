@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -22,6 +23,8 @@ double squaredDistance(const Corners& s, const Corners& t) {
   const double distance = testing::leastDistance(mesh(s), mesh(t));
   return distance * distance;
 }
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// What coordinates lose as floats, as the tree allows for it.
 float roundingOf(const std::vector<Corners>& all) {
@@ -66,7 +69,55 @@ TEST_P(FourTrianglesTest, AreNeverNearerThanTheBound) {
     const Vec3 p = place(round % 7 == 0 ? 1e6 : 2.0);
     const Lanes fromTriangle =
         QueryTriangle(query[0], query[1], query[2]).squaredDistances(four, rounding);
-    const Lanes fromPoint = four.squaredDistances(p, rounding);
+    const Lanes fromPoint = four.squaredDistances(p, rounding, kInfinity);
+    for (int i = 0; i < 4; ++i) {
+      const Corners& t = all[static_cast<std::size_t>(i)];
+      EXPECT_LE(static_cast<double>(fromTriangle[i]), squaredDistance(query, t) * (1.0 + 1e-12));
+      EXPECT_LE(static_cast<double>(fromPoint[i]), squaredDistance({p, p, p}, t) * (1.0 + 1e-12));
+    }
+  }
+}
+
+/// Around one of four triangles each, and between planes of any normal.
+BoxPacket boxesAround(const std::vector<Corners>& all, const Vec3& normal) {
+  BoxPacket boxes;
+  boxes.normal = normal.cast<float>();
+  const auto below = [](double x) {
+    return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity());
+  };
+  for (int i = 0; i < 4; ++i) {
+    const Corners& t = all[static_cast<std::size_t>(i)];
+    const Vec3 low = t[0].cwiseMin(t[1]).cwiseMin(t[2]);
+    const Vec3 high = t[0].cwiseMax(t[1]).cwiseMax(t[2]);
+    for (int k = 0; k < 3; ++k) {
+      boxes.lower[k][i] = below(low[k]);
+      boxes.upper[k][i] = -below(-high[k]);
+    }
+    const Vec3 axis = boxes.normal.cast<double>();
+    const Vec3 at(axis.dot(t[0]), axis.dot(t[1]), axis.dot(t[2]));
+    boxes.above[i] = below(at.minCoeff());
+    boxes.below[i] = -below(-at.maxCoeff());
+  }
+  return boxes;
+}
+
+TEST_P(FourTrianglesTest, AreNeverNearerThanTheBoundOfTheirBoxes) {
+  for (int round = 0; round < 300; ++round) {
+    std::vector<Corners> all(4);
+    for (int i = 0; i < 4; ++i) all[static_cast<std::size_t>(i)] = triangle(i + round);
+    const Corners& first = all.front();
+    // Along one of them, along an axis, and none.
+    const Vec3 upright = (first[1] - first[0]).cross(first[2] - first[0]).normalized();
+    const Vec3 normal = round % 3 == 0   ? upright
+                        : round % 3 == 1 ? Vec3(Vec3::UnitY())
+                                         : Vec3(Vec3::Zero());
+    const BoxPacket boxes = boxesAround(all, normal);
+    const float rounding = roundingOf(all);
+    const Corners query = triangle(round);
+    const Vec3 p = place(round % 7 == 0 ? 1e6 : 2.0);
+    const Lanes fromTriangle =
+        QueryTriangle(query[0], query[1], query[2]).squaredDistances(boxes, rounding);
+    const Lanes fromPoint = boxes.squaredDistances(p, rounding);
     for (int i = 0; i < 4; ++i) {
       const Corners& t = all[static_cast<std::size_t>(i)];
       EXPECT_LE(static_cast<double>(fromTriangle[i]), squaredDistance(query, t) * (1.0 + 1e-12));
@@ -96,7 +147,7 @@ TEST(TrianglePacket, AreNotFarWhereTheyCrossHoweverLargeTheyAre) {
   EXPECT_EQ(query.squaredDistances(four, 1e14F).maxCoeff(), 0.0F);
   for (int i = 0; i < 4; ++i)
     four.set(i, {2.7e19, -2.6e19, 0}, {-2.6e19, 2.7e19, 0}, {2.7e19, -2.6e19, 0.24});
-  EXPECT_LE(four.squaredDistances(Vec3::Zero(), 0.0F).maxCoeff(), 5e35F);
+  EXPECT_LE(four.squaredDistances(Vec3::Zero(), 0.0F, kInfinity).maxCoeff(), 5e35F);
 }
 
 TEST(TrianglePacket, TellNearlyTheDistanceAcrossTheirPlanes) {
@@ -109,12 +160,44 @@ TEST(TrianglePacket, TellNearlyTheDistanceAcrossTheirPlanes) {
   const Vec3 p = turn * Vec3(0.2, 0.2, 0);
   const QueryTriangle query(turn * Vec3(0.1, 0.1, 0), turn * Vec3(0.1, 0.6, 0),
                             turn * Vec3(0.6, 0.1, 0));
-  const Lanes fromPoint = four.squaredDistances(p, 1e-6F);
+  const Lanes fromPoint = four.squaredDistances(p, 1e-6F, kInfinity);
   const Lanes fromTriangle = query.squaredDistances(four, 1e-6F);
   for (int i = 0; i < 4; ++i) {
     const double squared = 0.01 * (i + 1) * (i + 1);
     EXPECT_NEAR(static_cast<double>(fromPoint[i]), squared, 1e-3 * squared);
     EXPECT_NEAR(static_cast<double>(fromTriangle[i]), squared, 1e-3 * squared);
+  }
+}
+
+TEST(TrianglePacket, TellNearlyTheDistanceBesideTheirEdges) {
+  const Mat3 turn = Eigen::AngleAxisd(1.1, Vec3(-2, 1, 2).normalized()).toRotationMatrix();
+  TrianglePacket four;
+  for (int i = 0; i < 4; ++i) {
+    const double away = 0.1 * (i + 1);
+    four.set(i, turn * Vec3(away, -1, 0.3), turn * Vec3(away, 1, 0.3), turn * Vec3(2, 0, 0.3));
+  }
+  const Lanes found = four.squaredDistances(Vec3::Zero(), 1e-6F, kInfinity);
+  for (int i = 0; i < 4; ++i) {
+    const double squared = 0.01 * (i + 1) * (i + 1) + 0.09;
+    EXPECT_NEAR(static_cast<double>(found[i]), squared, 1e-3 * squared);
+  }
+}
+
+// The boxes of slanted triangles reach nearly to the point, and so do the planes of those beside.
+TEST(BoxPacket, TellsHowFarPiecesOfASlantedPlaneAre) {
+  const Mat3 turn = Eigen::AngleAxisd(0.9, Vec3(1, 1, 1).normalized()).toRotationMatrix();
+  std::vector<Corners> all;
+  for (int i = 0; i < 4; ++i) {
+    all.push_back({Vec3(2.0 * i, -0.5, 1), Vec3(2.0 * i + 1, -0.5, 1), Vec3(2.0 * i, 0.5, 1)});
+    for (Vec3& p : all.back()) p = (turn * p).eval();
+  }
+  const Vec3 normal = turn * Vec3::UnitZ();
+  const Lanes found = boxesAround(all, normal).squaredDistances(Vec3::Zero(), roundingOf(all));
+  EXPECT_GT(found[0], 0.999F);
+  for (int i = 1; i < 4; ++i) {
+    const double reached = 2.0 * i - 1.0;
+    EXPECT_GT(static_cast<double>(found[i]), 1.0 + reached * reached);
+    EXPECT_LE(static_cast<double>(found[i]), 1.0 + 4.0 * i * i);
   }
 }
 

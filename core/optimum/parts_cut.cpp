@@ -1,0 +1,128 @@
+#include "core/optimum/parts_cut.h"
+
+#include "core/base/parallel.h"
+#include "core/query/point_in_mesh.h"
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace massprops {
+namespace {
+
+/// Takes off what lies on the negative side of something.
+class PartsCut {
+public:
+  PartsCut(const RegionParts& all, SideOfPart left) : all_(all), left_(std::move(left)) {}
+
+  void add(const RegionPart& part, int number) {
+    constexpr int kCells = 1 << 9; // of the largest cube
+    cells_ = -2 - kCells * number; // unlike all others, whichever thread calculates them
+    add(part);
+  }
+
+  std::vector<RegionPart> parts() && { return std::move(parts_); }
+
+private:
+  void add(const RegionPart& part) {
+    const double size = all_.edge * std::ldexp(1.0, part.level - 1);
+    const double half = 0.5 * std::sqrt(3.0) * size;
+    const std::optional<Sample> left = left_(part, half);
+    if (!left || left->value <= -half) return;
+    if (part.level == 0 ? left->value >= part.depth - all_.wall : left->value >= half) {
+      parts_.push_back(part);
+    } else if (part.level == 0) {
+      RegionPart cut = part;
+      cut.depth = all_.wall + left->value;
+      cut.inwards = left->slope;
+      parts_.push_back(cut);
+    } else {
+      split(part, 0.25 * size);
+    }
+  }
+
+  /// A cube of cells becomes smaller ones, a cell its parts.
+  void split(const RegionPart& part, double step) {
+    for (int i = 0; i < 8; ++i) {
+      RegionPart smaller = part;
+      smaller.centre += step * Vec3((i & 1) != 0 ? 1.0 : -1.0, (i & 2) != 0 ? 1.0 : -1.0,
+                                    (i & 4) != 0 ? 1.0 : -1.0);
+      smaller.level = part.level - 1;
+      // Nothing else cuts it.
+      smaller.depth = std::max(part.depth - std::sqrt(3.0) * step, all_.wall + 2.0 * step);
+      smaller.cell = part.level == 1 ? cells_ : part.cell;
+      add(smaller);
+    }
+    if (part.level == 1) --cells_;
+  }
+
+  const RegionParts& all_;
+  SideOfPart left_;
+  std::vector<RegionPart> parts_;
+  int cells_ = 0; ///< the next of the numbers of cells that were whole
+};
+
+/// How far parts are from a surface, beyond a depth.
+class OutsideOf {
+public:
+  OutsideOf(const TriangleTree& closed, double depth)
+      : closed_(closed), inside_(closed), depth_(depth) {}
+
+  std::optional<Sample> operator()(const RegionPart& part, double half) {
+    const Vec3& x = part.centre;
+    const double farthest = depth_ + half;
+    near_ = closed_.nearest(x, farthest * farthest, near_.face);
+    const bool isNear = near_.face >= 0;
+    const double distance = isNear ? std::sqrt(near_.squaredDistance) : farthest;
+    if ((x - last_.centre).squaredNorm() >= last_.radius * last_.radius)
+      last_.isInside = isNear ? inside_.contains(x, near_) : inside_.contains(x);
+    last_.centre = x;
+    last_.radius = distance;
+    if (isNear) {
+      const double sign = last_.isInside ? -1.0 : 1.0;
+      return Sample{sign * distance - depth_, sign * (x - near_.point).normalized()};
+    }
+    if (last_.isInside) return std::nullopt;
+    return Sample{std::numeric_limits<double>::infinity(), Vec3::UnitX()};
+  }
+
+private:
+  const TriangleTree& closed_;
+  PointInMesh inside_;
+  double depth_;
+  TriangleTree::Hit near_;
+  /// The surface does not come into it, so that all of it is on one side.
+  struct Ball {
+    Vec3 centre = Vec3::Zero();
+    double radius = 0.0;
+    bool isInside = false;
+  } last_;
+};
+
+} // namespace
+
+RegionParts partsLeft(const RegionParts& all, const std::function<SideOfPart()>& makeSide) {
+  RegionParts result{all.edge, all.wall, {}};
+  constexpr Eigen::Index kRun = 512;
+  const auto count = static_cast<Eigen::Index>(all.parts.size());
+  std::vector<std::vector<RegionPart>> chunks(static_cast<std::size_t>((count + kRun - 1) / kRun));
+  forChunks(count, kRun, [&](const Chunk& chunk) {
+    PartsCut parts(all, makeSide());
+    for (Eigen::Index i = chunk.begin; i < chunk.end; ++i) {
+      parts.add(all.parts[static_cast<std::size_t>(i)], static_cast<int>(i));
+    }
+    chunks[static_cast<std::size_t>(chunk.number)] = std::move(parts).parts();
+  });
+  for (const std::vector<RegionPart>& chunk : chunks) {
+    result.parts.insert(result.parts.end(), chunk.begin(), chunk.end());
+  }
+  return result;
+}
+
+RegionParts partsOutside(const TriangleTree& closed, double depth, const RegionParts& all) {
+  return partsLeft(all, [&] { return OutsideOf(closed, depth); });
+}
+
+} // namespace massprops
