@@ -274,11 +274,10 @@ std::optional<Possible> possibleWithin(const TriangleTree& surface, double wall,
   const Weights& weights = options.weights;
   Fillings states = statesOfLimit(surface, behindWalls.edge, fillingsSeenBy(options));
   OptimalBound bound = optimalBound(goal, weights, solid, states, cells);
-  OpenedSet deliverable = deliverableSet(surface, wall, behindWalls, cells);
-  const AdmissibleCells wide = cellsOf(partsWithin(deliverable, behindWalls));
-  if (wide.col(0).sum() < cells.col(0).sum())
-    bound = withBodyWithin(wide, std::move(bound), goal, weights, solid, states);
-  Possible result{cells, std::move(bound), std::move(deliverable), std::move(states)};
+  Deliverable deliverable = deliverableSet(surface, wall, behindWalls, cells);
+  if (deliverable.cells.col(0).sum() < cells.col(0).sum())
+    bound = withBodyWithin(deliverable.cells, std::move(bound), goal, weights, solid, states);
+  Possible result{cells, std::move(bound), std::move(deliverable.set), std::move(states)};
   return result;
 }
 

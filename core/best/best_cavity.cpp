@@ -194,7 +194,7 @@ CavityResult polished(const CavityTask& task, const LayeredQuadric& quadric, dou
 
 /// The set with another wall.
 OpenedSet withWall(const OpenedSet& set, double wall) {
-  OpenedSet result = openedSet(set.surface, wall, set.edge);
+  OpenedSet result = openedSet(set.surface, wall, set.ball, set.edge);
   result.fill = set.fill;
   return result;
 }
@@ -301,7 +301,7 @@ CavityResult inFineCubes(const CavityTask& task, OpenedSet deliverable) {
 
 /// Where a mass is all that is wanted: behind a wall as thick everywhere as that takes. Empty: more
 /// is wanted, or not to be had that way.
-std::optional<CavityResult> uniformlyWalled(const CavityTask& task, double edge) {
+std::optional<CavityResult> uniformlyWalled(const CavityTask& task, const OpenedSet& set) {
   const std::optional<double> mass = task.goal.wantedMass();
   const Filling& filling = task.model.fillings.front();
   if (!mass || task.weights.constraints == 0.0 || filling.isPartial()) return {};
@@ -311,7 +311,7 @@ std::optional<CavityResult> uniformlyWalled(const CavityTask& task, double edge)
   if (!(volume > 0.0)) return {};
   const double tolerance = 0.1 * kFeasibility * solid / std::abs(perVolume);
   const std::optional<TriangleMesh> cavity =
-      cavityOfVolume({task.surface, volume, tolerance, wallBeforeRounding(task), edge,
+      cavityOfVolume({task.surface, volume, tolerance, wallBeforeRounding(task), set.ball, set.edge,
                       [&](const Points& points) { return delivered(task, points); }});
   if (!cavity) return {};
   CavityResult result = resultOf(task, *cavity);
@@ -327,8 +327,8 @@ std::optional<CavityResult> uniformlyWalled(const CavityTask& task, double edge)
 
 } // namespace
 
-OpenedSet deliverableSet(const TriangleTree& surface, double wall, const RegionParts& behindWall,
-                         const AdmissibleCells& cells) {
+Deliverable deliverableSet(const TriangleTree& surface, double wall, const RegionParts& behindWall,
+                           const AdmissibleCells& cells) {
   constexpr double kFewest = 15000.0;
   constexpr double kMost = 50000.0;
   constexpr double kAcross = 9.0; // a room of the mean width
@@ -336,13 +336,34 @@ OpenedSet deliverableSet(const TriangleTree& surface, double wall, const RegionP
   const double width = 2.0 * cells.col(0).sum() / area;
   const double edge =
       std::clamp(width / kAcross, edgeOfCubes(area, kMost), edgeOfCubes(area, kFewest));
-  return openedSet(surface, wall, std::max(edge, kLeastEdge));
+  const auto deliverable = [&](OpenedSet set) {
+    AdmissibleCells within = cellsOf(partsWithin(set, behindWall));
+    return Deliverable{std::move(set), std::move(within)};
+  };
+  std::optional<Deliverable> found =
+      deliverable(openedSet(surface, wall, std::max(edge, kLeastEdge)));
+  // Where rooms are hardly wider than the ball, its middle goes along thin sheets, which large
+  // cubes pass over.
+  constexpr double kLittle = 0.02;
+  constexpr Eigen::Index kMostFaces = 100000;
+  const double all = cells.col(0).sum();
+  while (volumeInDoubt(found->set, behindWall) > kLittle * all) {
+    const OpenedSet& set = found->set;
+    const OpeningBall finer{set.ball.width, 0.5 * set.ball.edge};
+    const bool isFine = set.deep && set.deep->mesh->faces.rows() > kMostFaces;
+    if (isFine || finer.edge < kLeastEdge) break;
+    Deliverable more = deliverable(openedSet(surface, wall, finer, set.edge));
+    const double gain = more.cells.col(0).sum() - found->cells.col(0).sum();
+    if (gain < kLittle * more.cells.col(0).sum()) break;
+    found.emplace(std::move(more));
+  }
+  return *std::move(found);
 }
 
 CavityResult bestPossibleCavity(const CavityTask& task, const OpenedSet& deliverable, Cubes cubes) {
   const Stopwatch time;
   std::optional<CavityResult> walled;
-  if (!deliverable.fill) walled = uniformlyWalled(task, deliverable.edge);
+  if (!deliverable.fill) walled = uniformlyWalled(task, deliverable);
   if (walled) {
     walled->effort.secondsOptimization = time.seconds() - walled->effort.secondsInspection;
     return std::move(*walled);

@@ -8,10 +8,17 @@
 
 namespace massprops {
 
+/// What a cavity may take.
+struct Deliverable {
+  OpenedSet set;
+  AdmissibleCells cells; ///< of it
+};
+
 /// What a cavity may take behind a wall, as finely as it is delivered: the finer, the narrower its
-/// rooms. `behindWall`: all that lies there, `cells`: what these are.
-OpenedSet deliverableSet(const TriangleTree& surface, double wall, const RegionParts& behindWall,
-                         const AdmissibleCells& cells);
+/// rooms, and so is what tells where they are as wide as a wall, as long as that finds more of
+/// them. `behindWall`: all that lies there, `cells`: what these are.
+Deliverable deliverableSet(const TriangleTree& surface, double wall, const RegionParts& behindWall,
+                           const AdmissibleCells& cells);
 
 /// Whether finer cubes than those of the set are tried where these lose too much.
 enum class Cubes { AsFineAsItTakes, OfTheSet };

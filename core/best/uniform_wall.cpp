@@ -65,7 +65,7 @@ std::optional<TriangleMesh> cavityOfVolume(const VolumeTask& task) {
   double wall = depthHolding(task);
   for (int i = 0; i < kContours; ++i) {
     std::optional<CavityContour> found =
-        cavityContour(openedSet(task.surface, wall, task.leastWall, edge), {});
+        cavityContour(openedSet(task.surface, wall, task.ball, edge), {});
     if (!found || found->contour.mesh.faces.rows() == 0) return {};
     TriangleMesh& cavity = found->contour.mesh;
     const double missing = task.volume - signedVolume(cavity.vertices, cavity.faces);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/types.h"
+#include "core/contour/opened_set.h"
 #include "core/query/triangle_tree.h"
 
 #include <functional>
@@ -15,12 +16,13 @@ struct VolumeTask {
   double volume;               ///< of the cavity, > 0
   double tolerance;            ///< of the volume, that of what is delivered
   double leastWall;            ///< length
+  OpeningBall ball;            ///< that opens the level sets
   double edge;                 ///< of the cubes that the cavity is made with at most, length
   /// Rounds positions to those that can be delivered.
   std::function<Points(const Points&)> deliverable;
 };
 
-/// A level set of the distance to the surface, opened by a ball as wide as the least wall, at the
+/// A level set of the distance to the surface, opened, at the
 /// distance where it has that volume: closed components, outward, not inspected, before rounding.
 /// What a contour's triangles miss is made up for by moving all of its vertices along their
 /// normals, a small part of a cube. Empty: there is not so much room behind the least wall, or it

@@ -116,7 +116,7 @@ std::optional<CavityContour> cavityContour(const OpenedSet& set,
                                            const std::function<bool(const Contour&)>& isWorthIt) {
   ClearanceQuery fresh(set.surface);
   if (!set.deep) return CavityContour{{}, set.edge, fresh};
-  const double leastVolume = std::pow(set.width, 3);
+  const double leastVolume = std::pow(set.ball.width, 3);
   // Vertices on the border shall not count as too near for their last digits.
   constexpr double kMore = 1e-3;
   const Region region{set.surface,   (1.0 + kMore) * set.wall, &*set.deep, quadric, set.edge,

@@ -55,21 +55,32 @@ double edgeOfCubes(double area, double count) {
 }
 
 OpenedSet openedSet(const TriangleTree& surface, double wall, double edge) {
-  return openedSet(surface, wall, wall, edge);
+  constexpr double kCoarser = 1.4; // nobody sees it
+  return openedSet(surface, wall, {wall, kCoarser * edge}, edge);
 }
 
-OpenedSet openedSet(const TriangleTree& surface, double wall, double width, double edge) {
-  OpenedSet set{surface, (1.0 + kMargin) * wall, width, edge, {}};
-  const double narrow = 0.5 * width;
-  constexpr double kCoarser = 1.4; // nobody sees it
-  const double deepEdge = kCoarser * edge;
+OpenedSet openedSet(const TriangleTree& surface, double wall, const OpeningBall& ball,
+                    double edge) {
+  OpenedSet set{surface, (1.0 + kMargin) * wall, ball, edge, {}};
+  const double narrow = 0.5 * ball.width;
   auto border = std::make_unique<const TriangleMesh>(
-      dualContour(borderLattice({surface, set.wall + narrow}, deepEdge)).mesh);
+      dualContour(borderLattice({surface, set.wall + narrow}, ball.edge)).mesh);
   if (border->faces.rows() == 0) return set;
   TriangleTree tree(border->vertices, border->faces);
   set.deep = std::make_shared<const DeepPart>(
-      DeepPart{std::move(border), std::move(tree), set.wall + narrow + deepEdge, kReach * narrow});
+      DeepPart{std::move(border), std::move(tree), set.wall + narrow + ball.edge, kReach * narrow});
   return set;
+}
+
+double volumeInDoubt(const OpenedSet& set, const RegionParts& all) {
+  const double fits = set.wall + 0.5 * set.ball.width;
+  RegionParts perhaps{all.edge, all.wall, {}};
+  for (const RegionPart& part : all.parts) {
+    const double half = 0.5 * std::sqrt(3.0) * all.edge * std::ldexp(1.0, part.level - 1);
+    if (part.depth + half >= fits) perhaps.parts.push_back(part);
+  }
+  const auto volume = [](const RegionParts& parts) { return cellsOf(parts).col(0).sum(); };
+  return volume(perhaps) - volume(partsWithin(set, perhaps));
 }
 
 RegionParts partsWithin(const OpenedSet& set, const RegionParts& all) {

@@ -12,7 +12,7 @@ namespace massprops {
 namespace {
 
 constexpr double kMore = 1.05;  // than what is missing, for the direction turns on the way
-constexpr double kLeast = 3e-4; // of the wall
+constexpr double kLeast = 1e-4; // of the wall
 
 /// By how much the walls of the faces around each vertex are too thin.
 Vector shortfalls(double wall, const Vector& distanceOfFace, const Faces& faces,

@@ -65,8 +65,8 @@ TEST(SmoothCapsOfAPolycube, CloseTheEndsThatCostLittleWhereOthersStayRough) {
   options.innerLowerBound = wall;
   const Result result = optimizeMassProperties(body, options);
   ASSERT_GT(result.inner.faces.rows(), 0);
-  // The body's own edges turn by 90°; with all ends rough it is 0.102 of them.
-  EXPECT_LT(shareOfSharpEdges(result.inner, 60.0), 0.098);
+  // The body's own edges turn by 90°; with all ends rough it is 0.109 of them.
+  EXPECT_LT(shareOfSharpEdges(result.inner, 60.0), 0.106);
   EXPECT_LT(std::get<double>(result.report.at("gap_to_limit")), 0.025);
   EXPECT_TRUE(isClosedAndOriented(result.inner));
   EXPECT_EQ(intersectingPairs(result.inner), 0U);
