@@ -94,41 +94,6 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-int addCube(const Place& place, BorderLattice& lattice) {
-  const int number = static_cast<int>(lattice.cubes.size());
-  std::array<int, 8> corners{};
-  for (int i = 0; i < 8; ++i) {
-    const Place cornerPlace = place + cornerStep(i);
-    const int fresh = static_cast<int>(lattice.corners.size());
-    corners[at(i)] = lattice.cornerAt.emplace(cornerPlace, fresh).first->second;
-    if (corners[at(i)] == fresh) lattice.corners.push_back({cornerPlace, true, false, {}, {}, {}});
-  }
-  lattice.cubes.push_back(corners);
-  lattice.cubeAt.emplace(place, number);
-  return number;
-}
-
-/// The number of a cube, which is added if it is not there.
-int cubeAt(const Place& place, BorderLattice& lattice) {
-  const auto known = lattice.cubeAt.find(place);
-  return known != lattice.cubeAt.end() ? known->second : addCube(place, lattice);
-}
-
-/// Two surfaces at an acute angle are kept apart: their triangles would cross each other where the
-/// region between them ends. The more acute, the wider apart.
-std::optional<Sample> chamferAt(const Corner& corner, double edge) {
-  constexpr double kBegins = -0.5; // cosine between the slopes
-  constexpr double kWhole = -0.9;
-  constexpr double kApart = 0.4; // edges
-  if (!corner.inset || !corner.cut) return {};
-  const double cosine = corner.inset->slope.dot(corner.cut->slope);
-  const Vec3 slope = corner.inset->slope + corner.cut->slope;
-  const double steepness = slope.norm();
-  if (cosine > kBegins || steepness < 1e-9) return {};
-  const double apart = kApart * edge * std::min((cosine - kBegins) / (kWhole - kBegins), 1.0);
-  return Sample{(corner.inset->value + corner.cut->value - apart) / steepness, slope / steepness};
-}
-
 constexpr double kLeastValue = 1e-6; // edges; what is less is not inside
 
 void sampleCorner(const Region& region, InsetProbe& probe, int c, BorderLattice& lattice) {
@@ -136,8 +101,8 @@ void sampleCorner(const Region& region, InsetProbe& probe, int c, BorderLattice&
   const Vec3 x = lattice.positionOf(c);
   corner.inset = probe.at(x, 2.0 * lattice.edge);
   if (region.quadric) corner.cut = cutAt(region, x);
-  corner.chamfer = chamferAt(corner, lattice.edge);
-  corner.isInside = corner.value() > kLeastValue * lattice.edge;
+  corner.mayBeChamfered = corner.inset.has_value();
+  corner.isInside = corner.value(lattice.edge) > kLeastValue * lattice.edge;
 }
 
 /// What is known of what the walls leave at a corner without asking there: it changes by no more
@@ -167,7 +132,7 @@ public:
   void addTo(BorderLattice& lattice) const {
     for (const Place& place : cubes_) {
       const auto known = static_cast<int>(lattice.corners.size());
-      const int cube = addCube(place, lattice);
+      const int cube = lattice.addCube(place);
       for (int i = 0; i < 8; ++i) {
         const int c = lattice.cubes[at(cube)][at(i)];
         const Corner& corner = corners_[numberOf(place + cornerStep(i))];
@@ -198,7 +163,7 @@ private:
       int& number = numbers_[placeOf(place)];
       if (number < 0) {
         number = static_cast<int>(corners_.size());
-        corners_.push_back({place, true, false, {}, {}, {}});
+        corners_.push_back({place, true});
         bounds_.emplace_back();
       }
       if (!block.middle) continue;
@@ -232,8 +197,8 @@ private:
     if (!corner.isInside || isFarBehind(c)) return;
     if (!corner.inset && (isNearCut || bounds.atLeast <= least))
       corner.inset = probe_.at(x, kFar * edge_);
-    corner.chamfer = chamferAt(corner, edge_);
-    corner.isInside = corner.value() > least;
+    corner.mayBeChamfered = corner.inset.has_value();
+    corner.isInside = corner.value(edge_) > least;
   }
 
   /// Those of a block.
@@ -328,9 +293,9 @@ void addMissing(const Region& region, BorderLattice& lattice) {
         const unsigned side = step < 0 ? kLowSide[at(axis)] : ~kLowSide[at(axis)] & 255U;
         if ((inside & side) == 0 || (inside & side) == side) continue;
         const Place other = place + step * Place::Unit(axis);
-        if (lattice.cubeAt.count(other) > 0) continue;
+        if (lattice.cubeAt(other) >= 0) continue;
         const auto known = static_cast<int>(lattice.corners.size());
-        addCube(other, lattice);
+        lattice.addCube(other);
         for (int c = known; c < static_cast<int>(lattice.corners.size()); ++c) {
           sampleCorner(region, probe, c, lattice);
         }
@@ -348,7 +313,7 @@ void tame(std::vector<int> wild, BorderLattice& lattice) {
     if (cutOnce()[lattice.cornersInside(cube)]) continue;
     const auto valueInside = [&](int c) {
       const Corner& corner = lattice.corners[at(c)];
-      return corner.isInside ? corner.value() : std::numeric_limits<double>::infinity();
+      return corner.isInside ? corner.value(lattice.edge) : std::numeric_limits<double>::infinity();
     };
     const auto& corners = lattice.cubes[at(cube)];
     Corner& least =
@@ -358,24 +323,70 @@ void tame(std::vector<int> wild, BorderLattice& lattice) {
     least.isInside = false;
     const Place place = least.place;
     for (int i = 0; i < 8; ++i) {
-      wild.push_back(cubeAt(place - cornerStep(i), lattice));
+      wild.push_back(lattice.addCube(place - cornerStep(i)));
     }
   }
 }
 
 } // namespace
 
-std::size_t PlaceHash::operator()(const Place& place) const {
+std::size_t PlaceNumbers::hash(const Place& place) {
   const auto part = [](int i) { return static_cast<std::size_t>(static_cast<unsigned>(i)); };
+  // MurmurHash3's finalizer, whose last digits depend on all.
   std::size_t hash = part(place.x()) << 42 ^ part(place.y()) << 21 ^ part(place.z());
   hash ^= hash >> 33;
-  return hash * 0xff51afd7ed558ccdULL; // of MurmurHash3's finalizer
+  hash *= 0xff51afd7ed558ccdULL;
+  hash ^= hash >> 33;
+  hash *= 0xc4ceb9fe1a85ec53ULL;
+  return hash ^ hash >> 33;
 }
 
-double Corner::value() const {
+/// Two surfaces at an acute angle are kept apart: their triangles would cross each other where the
+/// region between them ends. The more acute, the wider apart.
+std::optional<Sample> Corner::chamfer(double edge) const {
+  constexpr double kBegins = -0.5; // cosine between the slopes
+  constexpr double kWhole = -0.9;
+  constexpr double kApart = 0.4; // edges
+  if (!mayBeChamfered || !inset || !cut) return {};
+  const double cosine = inset->slope.dot(cut->slope);
+  const Vec3 slope = inset->slope + cut->slope;
+  const double steepness = slope.norm();
+  if (cosine > kBegins || steepness < 1e-9) return {};
+  const double apart = kApart * edge * std::min((cosine - kBegins) / (kWhole - kBegins), 1.0);
+  return Sample{(inset->value + cut->value - apart) / steepness, slope / steepness};
+}
+
+double Corner::value(double edge) const {
   constexpr double kFar = std::numeric_limits<double>::max();
+  const std::optional<Sample> between = chamfer(edge);
   return std::min(
-      {inset ? inset->value : kFar, cut ? cut->value : kFar, chamfer ? chamfer->value : kFar});
+      {inset ? inset->value : kFar, cut ? cut->value : kFar, between ? between->value : kFar});
+}
+
+int BorderLattice::cubeAt(const Place& place) const {
+  return cubeNumbers_.find(place, [&](int i) { return placeOfCube(i); });
+}
+
+int BorderLattice::cornerAt(const Place& place) const {
+  return cornerNumbers_.find(place, [&](int i) { return placeOfCorner(i); });
+}
+
+int BorderLattice::addCorner(const Place& place) {
+  const int known = cornerAt(place);
+  if (known >= 0) return known;
+  cornerNumbers_.add(place, [&](int i) { return placeOfCorner(i); });
+  corners.push_back({place, true});
+  return static_cast<int>(corners.size()) - 1;
+}
+
+int BorderLattice::addCube(const Place& place) {
+  const int known = cubeAt(place);
+  if (known >= 0) return known;
+  std::array<int, 8> cube{};
+  for (int i = 0; i < 8; ++i) cube[at(i)] = addCorner(place + cornerStep(i));
+  cubeNumbers_.add(place, [&](int i) { return placeOfCube(i); });
+  cubes.push_back(cube);
+  return static_cast<int>(cubes.size()) - 1;
 }
 
 unsigned BorderLattice::cornersInside(int cube) const {
@@ -405,14 +416,12 @@ void takeOut(const std::vector<Vec3>& points, BorderLattice& lattice) {
   for (const Vec3& x : points) {
     const Place place = ((x - lattice.origin) / lattice.edge).array().floor().cast<int>().matrix();
     for (int i = 0; i < 8; ++i) {
-      const auto known = lattice.cornerAt.find(place + cornerStep(i));
-      if (known == lattice.cornerAt.end()) continue;
-      const int c = known->second;
-      if (!lattice.corners[at(c)].isInside) continue;
+      const int c = lattice.cornerAt(place + cornerStep(i));
+      if (c < 0 || !lattice.corners[at(c)].isInside) continue;
       lattice.corners[at(c)].isInside = false;
       lattice.corners[at(c)].isTakenOut = true;
       for (int j = 0; j < 8; ++j) {
-        around.push_back(cubeAt(lattice.corners[at(c)].place - cornerStep(j), lattice));
+        around.push_back(lattice.addCube(lattice.corners[at(c)].place - cornerStep(j)));
       }
     }
   }

@@ -3,22 +3,54 @@
 
 #include "core/contour/region.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <deque>
 #include <optional>
-#include <unordered_map>
 #include <vector>
 
 namespace massprops {
 
 using Place = Eigen::Vector3i;
 
-struct PlaceHash {
-  std::size_t operator()(const Place& place) const;
+/// Finds what is at a place by its number. A map of the standard library takes 50 bytes for each of
+/// them, all corners and cubes half as much as everything else of a cavity: here it is eight, for
+/// those whose places are asked for keep these themselves.
+class PlaceNumbers {
+public:
+  /// The number at a place, −1 where there is none. `placeOf`(number): of those that were added.
+  template <class PlaceOf>
+  int find(const Place& place, const PlaceOf& placeOf) const {
+    if (slots_.empty()) return -1;
+    std::size_t slot = hash(place) & (slots_.size() - 1);
+    while (slots_[slot] >= 0 && placeOf(slots_[slot]) != place)
+      slot = (slot + 1) & (slots_.size() - 1);
+    return slots_[slot];
+  }
+
+  /// Adds the next number, 0, 1 …, at a place that is not there yet. `placeOf`: of those before it.
+  template <class PlaceOf>
+  void add(const Place& place, const PlaceOf& placeOf) {
+    constexpr std::size_t kFewest = 1024;
+    if (3 * static_cast<std::size_t>(count_) >= 2 * slots_.size()) {
+      slots_.assign(std::max(kFewest, 2 * slots_.size()), -1);
+      for (int i = 0; i < count_; ++i) put(placeOf(i), i);
+    }
+    put(place, count_++);
+  }
+
+private:
+  static std::size_t hash(const Place& place);
+  void put(const Place& place, int number) {
+    std::size_t slot = hash(place) & (slots_.size() - 1);
+    while (slots_[slot] >= 0) slot = (slot + 1) & (slots_.size() - 1);
+    slots_[slot] = number;
+  }
+
+  std::vector<int> slots_; ///< a power of two, a third of them free; −1: free
+  int count_ = 0;
 };
-/// Numbers of places.
-using PlaceNumbers = std::unordered_map<Place, int, PlaceHash>;
 
 /// A corner of cubes.
 struct Corner {
@@ -27,13 +59,15 @@ struct Corner {
   bool isInside = false;
   /// By `takeOut`: the border shall keep away from it.
   bool isTakenOut = false;
+  /// Whether inset and cut may come together here at an acute angle.
+  bool mayBeChamfered = false;
   /// Empty: so far inside that it does not matter.
-  std::optional<Sample> inset, cut;
-  /// Where inset and cut come together at an acute angle: what cuts the edge between them off.
-  std::optional<Sample> chamfer;
+  std::optional<Sample> inset = {}, cut = {};
 
+  /// Where they do: what cuts the edge between them off, in cubes of this edge.
+  std::optional<Sample> chamfer(double edge) const;
   /// Of the region, about a signed distance; large where both are empty.
-  double value() const;
+  double value(double edge) const;
 };
 
 /// The cubes of one size that the border of the region passes through. In each the corners that
@@ -45,13 +79,26 @@ struct BorderLattice {
   std::deque<Corner> corners; ///< many: a vector that grows would hold them twice
   /// Corner i of a cube is the one at its place plus (i & 1, i >> 1 & 1, i >> 2).
   std::vector<std::array<int, 8>> cubes;
-  PlaceNumbers cubeAt, cornerAt;
+
+  /// Numbers; −1: there is none.
+  int cubeAt(const Place& place) const;
+  int cornerAt(const Place& place) const;
+  /// The numbers of those at a place, which are added if they are not there; a corner as inside.
+  int addCube(const Place& place);
+  int addCorner(const Place& place);
 
   Vec3 positionOf(int corner) const {
     return origin + edge * corners[static_cast<std::size_t>(corner)].place.cast<double>();
   }
   /// A bit for each corner of a cube that is inside.
   unsigned cornersInside(int cube) const;
+
+private:
+  Place placeOfCorner(int corner) const { return corners[static_cast<std::size_t>(corner)].place; }
+  Place placeOfCube(int cube) const {
+    return placeOfCorner(cubes[static_cast<std::size_t>(cube)][0]);
+  }
+  PlaceNumbers cubeNumbers_, cornerNumbers_;
 };
 
 /// Cubes of the given edge. Where inset and cut are nearer to each other than a share of it, and

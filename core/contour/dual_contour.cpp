@@ -159,7 +159,7 @@ private:
     constexpr double kAwayFromTakenOut = 0.6;
     if (b.isTakenOut) return {from + kAwayFromTakenOut * way, On::Chamfer, {}};
     constexpr double kAlmostAll = 0.98;
-    if (b.value() > 0.0) return beyond(b, from + way, from + kAlmostAll * way);
+    if (b.value(lattice_.edge) > 0.0) return beyond(b, from + way, from + kAlmostAll * way);
     Root first;
     On on = On::Inset;
     const auto consider = [&](const std::optional<Sample>& atA, const std::optional<Sample>& atB,
@@ -172,26 +172,25 @@ private:
     };
     consider(a.inset, b.inset, On::Inset);
     consider(a.cut, b.cut, On::Cut);
-    consider(a.chamfer, b.chamfer, On::Chamfer);
+    consider(a.chamfer(lattice_.edge), b.chamfer(lattice_.edge), On::Chamfer);
     if (!(first.t <= 1.0)) return {from + kAwayFromTakenOut * way, On::Chamfer, {}};
     const Vec3 point = from + first.t * way;
     return {point, on, {{point, first.slope}}};
   }
 
   /// Of a corner that is left out although the border lies behind it.
-  static Crossing beyond(const Corner& corner, const Vec3& x, const Vec3& point) {
-    const std::optional<Sample>* least = &corner.inset;
+  Crossing beyond(const Corner& corner, const Vec3& x, const Vec3& point) const {
+    std::optional<Sample> least = corner.inset;
     On on = On::Inset;
     const auto consider = [&](const std::optional<Sample>& sample, On candidate) {
-      if (!sample || (*least && (*least)->value <= sample->value)) return;
-      least = &sample;
+      if (!sample || (least && least->value <= sample->value)) return;
+      least = sample;
       on = candidate;
     };
     consider(corner.cut, On::Cut);
-    consider(corner.chamfer, On::Chamfer);
-    if (!*least) return {point, On::Chamfer, {}};
-    const Sample& sample = **least;
-    return {point, on, {{x - sample.value * sample.slope, sample.slope}}};
+    consider(corner.chamfer(lattice_.edge), On::Chamfer);
+    if (!least) return {point, On::Chamfer, {}};
+    return {point, on, {{x - least->value * least->slope, least->slope}}};
   }
 
   void placeVertex(int cube) {
@@ -234,7 +233,7 @@ private:
     std::array<int, 4> ring{};
     int k = 0;
     for (const Place& p : {place, Place(place - u), Place(place - u - w), Place(place - w)}) {
-      ring[at(k++)] = vertexOf_[at(lattice_.cubeAt.at(p))];
+      ring[at(k++)] = vertexOf_[at(lattice_.cubeAt(p))];
     }
     if (!corner(a).isInside) std::swap(ring[1], ring[3]);
     const Vec3 from = lattice_.positionOf(a);
