@@ -46,35 +46,33 @@ double wallBeforeRounding(const CavityTask& task) {
   return task.wall + kMore * (delivered(task, middles) - middles).rowwise().norm().maxCoeff();
 }
 
-/// Not inspected.
+/// Not inspected, and without the outer surface, which is large and the same for all.
 CavityResult resultOf(const CavityTask& task, const TriangleMesh& mesh) {
   CavityResult result;
   result.shape = CavityShape::BestPossible;
   result.status = CavityStatus::Found;
-  result.outer = task.surface.vertices();
   result.inner = delivered(task, mesh.vertices);
   result.cavity.faces = mesh.faces;
   return result;
 }
 
-/// A contour, and what it was before vertices moved, which passes the inspection.
 struct Candidate {
   Contour contour;
-  Points before;
   CavityResult result;
 };
 
 class Polishing {
 public:
   Polishing(const CavityTask& task, const LayeredQuadric& quadric, const CavityContour& found)
-      : task_(task), quadric_(quadric), edge_(found.edge), clearance_(found.clearance) {}
+      : task_(task), quadric_(quadric), edge_(found.edge), before_(found.contour.mesh.vertices),
+        clearance_(found.clearance) {}
 
   int evaluations() const { return evaluations_; }
   double secondsInspection() const { return secondsInspection_; }
 
   /// Not inspected.
   Candidate unmoved(const Contour& contour) const {
-    return {contour, contour.mesh.vertices, resultOf(task_, contour.mesh)};
+    return {contour, resultOf(task_, contour.mesh)};
   }
 
   /// Whether the wall is kept afterwards.
@@ -83,9 +81,9 @@ public:
     return keepWall(clearance_, wall, contour.mesh).empty();
   }
 
-  /// Not inspected. `before`: where the vertices come from.
-  Candidate adjusted(const Contour& contour, const Points& before) {
-    Candidate candidate{contour, before, {}};
+  /// Not inspected.
+  Candidate adjusted(const Contour& contour) {
+    Candidate candidate{contour, {}};
     adjust({}, candidate);
     return candidate;
   }
@@ -94,7 +92,7 @@ public:
   /// those around them, while the others are adjusted anew.
   void makePass(Candidate& candidate) {
     constexpr int kRounds = 5;
-    std::vector<char> held(static_cast<std::size_t>(candidate.before.rows()), 0);
+    std::vector<char> held(static_cast<std::size_t>(before_.rows()), 0);
     for (int round = 0;; ++round) {
       inspectResult(candidate.result);
       if (candidate.result.inspection.isClean() || round == kRounds) return;
@@ -123,7 +121,7 @@ private:
   }
 
   /// Whether there was one that was not held yet.
-  static bool holdFaulty(Candidate& candidate, std::vector<char>& held) {
+  bool holdFaulty(Candidate& candidate, std::vector<char>& held) const {
     const Inspection& inspection = candidate.result.inspection;
     const Faces& faces = candidate.contour.mesh.faces;
     std::vector<char> faulty(held.size(), 0);
@@ -137,7 +135,7 @@ private:
       for (const int v : corners) {
         isNew = isNew || held[static_cast<std::size_t>(v)] == 0;
         held[static_cast<std::size_t>(v)] = 1;
-        candidate.contour.mesh.vertices.row(v) = candidate.before.row(v);
+        candidate.contour.mesh.vertices.row(v) = before_.row(v);
       }
     }
     return isNew;
@@ -146,6 +144,7 @@ private:
   const CavityTask& task_;
   const LayeredQuadric& quadric_;
   double edge_;
+  const Points& before_; ///< where the vertices come from, which passes the inspection
   ClearanceQuery clearance_;
   int evaluations_ = 0;
   double secondsInspection_ = 0.0;
@@ -159,9 +158,8 @@ CavityResult polished(const CavityTask& task, const LayeredQuadric& quadric, dou
   std::vector<Candidate> candidates{polishing.unmoved(found.contour)};
   // Creases that move leave the walls' surface a little, and the constraints with it.
   Contour whole = found.contour;
-  if (polishing.moveCreases(wall, whole))
-    candidates.push_back(polishing.adjusted(whole, found.contour.mesh.vertices));
-  candidates.push_back(polishing.adjusted(found.contour, found.contour.mesh.vertices));
+  if (polishing.moveCreases(wall, whole)) candidates.push_back(polishing.adjusted(whole));
+  candidates.push_back(polishing.adjusted(found.contour));
   std::stable_sort(candidates.begin(), candidates.end(),
                    [&](const Candidate& a, const Candidate& b) {
                      return servesBetter(task, a.result, b.result);
@@ -364,12 +362,10 @@ CavityResult bestPossibleCavity(const CavityTask& task, const OpenedSet& deliver
   const Stopwatch time;
   std::optional<CavityResult> walled;
   if (!deliverable.fill) walled = uniformlyWalled(task, deliverable);
-  if (walled) {
-    walled->effort.secondsOptimization = time.seconds() - walled->effort.secondsInspection;
-    return std::move(*walled);
-  }
-  CavityResult result = cubes == Cubes::OfTheSet ? cavityOf(task, deliverable, kAll).result
-                                                 : inFineCubes(task, deliverable);
+  CavityResult result = walled                     ? *std::move(walled)
+                        : cubes == Cubes::OfTheSet ? cavityOf(task, deliverable, kAll).result
+                                                   : inFineCubes(task, deliverable);
+  if (result.status == CavityStatus::Found) result.outer = task.surface.vertices();
   result.effort.secondsOptimization = time.seconds() - result.effort.secondsInspection;
   return result;
 }

@@ -21,9 +21,12 @@ Vectors cross(const Vectors& a, const Vectors& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+Vectors broadcast(const Eigen::Vector3f& p) {
+  return {Lanes::Constant(p.x()), Lanes::Constant(p.y()), Lanes::Constant(p.z())};
+}
+
 Vectors broadcast(const Vec3& p) {
-  const Eigen::Vector3f f = p.cast<float>();
-  return {Lanes::Constant(f.x()), Lanes::Constant(f.y()), Lanes::Constant(f.z())};
+  return broadcast(Eigen::Vector3f(p.cast<float>()));
 }
 
 Lanes absSum(const Vectors& a) {
@@ -119,7 +122,7 @@ Lanes TrianglePacket::squaredDistances(const Vec3& p, float rounding, double rea
   return atLeast;
 }
 
-Lanes BoxPacket::squaredDistances(const Vec3& p, float rounding) const {
+Lanes BoxPacket::squaredDistances(const Vec3& p, float rounding, const PlanePacket* planes) const {
   const Vectors origin = broadcast(p);
   const Vectors from = Vectors{lower[0], lower[1], lower[2]} - origin;
   const Vectors to = Vectors{upper[0], upper[1], upper[2]} - origin;
@@ -128,11 +131,11 @@ Lanes BoxPacket::squaredDistances(const Vec3& p, float rounding) const {
   const Lanes y = Lanes::Zero().max(from.y.max(-to.y) - error);
   const Lanes z = Lanes::Zero().max(from.z.max(-to.z) - error);
   const Lanes ofBoxes = (1.0F - kUnits) * (x.square() + y.square() + z.square());
-  if (normal.isZero()) return certain(ofBoxes);
-  const Vectors axis{Lanes::Constant(normal.x()), Lanes::Constant(normal.y()),
-                     Lanes::Constant(normal.z())};
+  if (planes == nullptr || planes->normal.isZero()) return certain(ofBoxes);
+  const Vectors axis = broadcast(planes->normal);
   const Lanes at = dot(axis, origin);
-  const Lanes gap = Lanes::Zero().max((above - at).max(at - below) - error * absSum(axis));
+  const Lanes gap =
+      Lanes::Zero().max((planes->above - at).max(at - planes->below) - error * absSum(axis));
   const Lanes ofPlanes = (1.0F - kUnits) * gap.square();
   // What lies beside is farther away than the plane.
   const Vectors middle{0.5F * (from.x + to.x), 0.5F * (from.y + to.y), 0.5F * (from.z + to.z)};
@@ -194,7 +197,8 @@ Lanes QueryTriangle::squaredDistances(const TrianglePacket& triangles, float rou
   return certain(((1.0F - kUnits) * inFrame).max(ofNormals));
 }
 
-Lanes QueryTriangle::squaredDistances(const BoxPacket& boxes, float rounding) const {
+Lanes QueryTriangle::squaredDistances(const BoxPacket& boxes, float rounding,
+                                      const PlanePacket* planes) const {
   const Lanes* const lower = boxes.lower;
   const Lanes* const upper = boxes.upper;
   const Vectors from = Vectors{lower[0], lower[1], lower[2]} - a_;
@@ -211,16 +215,15 @@ Lanes QueryTriangle::squaredDistances(const BoxPacket& boxes, float rounding) co
     inFrame += Lanes::Zero().max(gap - error * absSum(axis)).square();
   }
   Lanes atLeast = (1.0F - kUnits) * inFrame;
-  if (boxes.normal.isZero()) return certain(atLeast);
-  const Vectors normal{Lanes::Constant(boxes.normal.x()), Lanes::Constant(boxes.normal.y()),
-                       Lanes::Constant(boxes.normal.z())};
+  if (planes == nullptr || planes->normal.isZero()) return certain(atLeast);
+  const Vectors normal = broadcast(planes->normal);
   const Lanes at = dot(normal, a_);
   const Lanes b = dot(normal, b_);
   const Lanes c = dot(normal, c_);
   const Lanes low = at + b.min(c).min(0.0F);
   const Lanes high = at + b.max(c).max(0.0F);
   const Lanes gap =
-      Lanes::Zero().max((boxes.above - high).max(low - boxes.below) - error * absSum(normal));
+      Lanes::Zero().max((planes->above - high).max(low - planes->below) - error * absSum(normal));
   return certain(atLeast.max((1.0F - kUnits) * gap.square()));
 }
 

@@ -29,15 +29,20 @@ private:
   Vectors corners_[3];
 };
 
-/// Four boxes side by side. What they hold lies between two planes each, too, all of one normal: a
-/// piece of surface that is not along the axes is far thinner than its box.
+/// Between two planes each, all of one normal, lies what four boxes hold: a piece of surface that
+/// is not along the axes is far thinner than its box.
+struct PlanePacket {
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero(); ///< unit; 0: no planes are known
+  Lanes above, below;                               ///< bounds of the inner products with it
+};
+
+/// Four boxes side by side.
 struct BoxPacket {
   Lanes lower[3], upper[3];
-  Eigen::Vector3f normal = Eigen::Vector3f::Zero(); ///< unit; 0: nothing is known of planes
-  Lanes above, below; ///< bounds of the inner products with the normal
 
-  /// Not more than the squared distances from a point. `rounding`: as for triangles.
-  Lanes squaredDistances(const Vec3& p, float rounding) const;
+  /// Not more than the squared distances from a point. `rounding`: as for triangles; `planes`: null
+  /// where none are known.
+  Lanes squaredDistances(const Vec3& p, float rounding, const PlanePacket* planes) const;
 };
 
 /// The triangle (a, b, c), to be compared with four things at a time.
@@ -48,8 +53,8 @@ public:
   /// Not more than the squared distances from the triangles: those of boxes turned as this one
   /// lies, and the gaps along the others' normals.
   Lanes squaredDistances(const TrianglePacket& triangles, float rounding) const;
-  /// Not more than the squared distances from the boxes.
-  Lanes squaredDistances(const BoxPacket& boxes, float rounding) const;
+  /// Not more than the squared distances from what boxes and planes hold.
+  Lanes squaredDistances(const BoxPacket& boxes, float rounding, const PlanePacket* planes) const;
 
 private:
   using Vectors = TrianglePacket::Vectors;

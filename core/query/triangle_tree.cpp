@@ -135,11 +135,14 @@ void TriangleTree::makeBoxes(Queries queries) {
       if (queries == Queries::All) triangles_[static_cast<std::size_t>(leaf)] = trianglesOf(leaf);
     }
   });
-  boxes_.resize(static_cast<std::size_t>(leaves_ / 2));
-  Eigen::Index nodes = leaves_;
-  for (; nodes >= 4; nodes /= 4) {
+  roots_ = static_cast<int>(leaves_);
+  while (roots_ >= 4) roots_ /= 4;
+  // All nodes above the leaves, roots·(1 + 4 + … + leaves/(4·roots)) of them.
+  const auto nodesAbove = [&](Eigen::Index nodes) { return (nodes - roots_) / 3; };
+  boxes_.resize(static_cast<std::size_t>(nodesAbove(leaves_)));
+  for (Eigen::Index nodes = leaves_; nodes > roots_; nodes /= 4) {
     for (Eigen::Index i = 0; i < nodes / 4; ++i) {
-      BoxPacket& four = boxes_[static_cast<std::size_t>(nodes / 4 + i)];
+      BoxPacket& four = boxes_[static_cast<std::size_t>(nodesAbove(nodes / 4) + i)];
       Box all = level[static_cast<std::size_t>(4 * i)];
       for (int child = 0; child < 4; ++child) {
         const Box& box = level[static_cast<std::size_t>(4 * i + child)];
@@ -153,33 +156,36 @@ void TriangleTree::makeBoxes(Queries queries) {
     }
   }
   if (queries == Queries::All) makePlanes();
-  roots_ = static_cast<int>(nodes);
-  box_ = {level[0].lower.min(level[static_cast<std::size_t>(nodes - 1)].lower),
-          level[0].upper.max(level[static_cast<std::size_t>(nodes - 1)].upper)};
+  box_ = {level[0].lower.min(level[static_cast<std::size_t>(roots_ - 1)].lower),
+          level[0].upper.max(level[static_cast<std::size_t>(roots_ - 1)].upper)};
   constexpr float kUnits = 8.0F;
   rounding_ = kUnits * std::numeric_limits<float>::epsilon() *
               std::max(box_.lower.abs().maxCoeff(), box_.upper.abs().maxCoeff());
 }
 
 void TriangleTree::makePlanes() {
-  constexpr Eigen::Index kMost = 16; // leaves
-  for (Eigen::Index leaves = 4; leaves <= std::min(kMost, leaves_); leaves *= 4) {
-    const Eigen::Index count = leaves_ / leaves;
-    forChunks(count, kChunk, [&](const Chunk& chunk) {
-      for (Eigen::Index i = chunk.begin; i < chunk.end; ++i)
-        findPlanes(i * leaves, leaves, boxes_[static_cast<std::size_t>(count + i)]);
-    });
-  }
+  // Of the last two levels.
+  const Eigen::Index last = leaves_ / 4;
+  const Eigen::Index before = leaves_ / 16;
+  firstPlanes_ = innerNodes() - last - before;
+  planes_.resize(static_cast<std::size_t>(last + before));
+  forChunks(last + before, kChunk, [&](const Chunk& chunk) {
+    for (Eigen::Index i = chunk.begin; i < chunk.end; ++i) {
+      planes_[static_cast<std::size_t>(i)] =
+          i < before ? planesOf(16 * i, 16) : planesOf(4 * (i - before), 4);
+    }
+  });
 }
 
-void TriangleTree::findPlanes(Eigen::Index firstLeaf, Eigen::Index leaves, BoxPacket& boxes) const {
+PlanePacket TriangleTree::planesOf(Eigen::Index firstLeaf, Eigen::Index leaves) const {
+  PlanePacket planes;
   Vec3 sum = Vec3::Zero();
   for (Eigen::Index i = firstPlace(firstLeaf); i < firstPlace(firstLeaf + leaves); ++i)
     sum += areaNormal(vertices_, faces_, faceAt(i));
   const double length = sum.norm();
-  if (!(length > 0.0)) return;
-  boxes.normal = (sum / length).cast<float>();
-  const Vec3 normal = boxes.normal.cast<double>();
+  if (!(length > 0.0)) return planes;
+  planes.normal = (sum / length).cast<float>();
+  const Vec3 normal = planes.normal.cast<double>();
   for (int child = 0; child < 4; ++child) {
     const Eigen::Index first = firstLeaf + child * leaves / 4;
     double low = kInfinity;
@@ -191,9 +197,10 @@ void TriangleTree::findPlanes(Eigen::Index firstLeaf, Eigen::Index leaves, BoxPa
         high = std::max(high, at);
       }
     }
-    boxes.above[child] = below(low);
-    boxes.below[child] = above(high);
+    planes.above[child] = below(low);
+    planes.below[child] = above(high);
   }
+  return planes;
 }
 
 TriangleTree::Box TriangleTree::around(const Vec3& lower, const Vec3& upper) const {
@@ -252,19 +259,19 @@ void TriangleTree::visitNearest(const Distances& distances, const Reach& reach,
   };
   Entry stack[64];
   int size = 0;
-  for (int root = 0; root < roots_; ++root) stack[size++] = {roots_ + root, -kInfinity};
+  for (int root = 0; root < roots_; ++root) stack[size++] = {root, -kInfinity};
   while (size > 0) {
     const Entry e = stack[--size];
     if (!(e.distance < reach())) continue;
-    if (e.node >= leaves_) {
-      visit(e.node - leaves_);
+    if (e.node >= innerNodes()) {
+      visit(e.node - innerNodes());
       continue;
     }
-    const auto found = distances(boxes_[static_cast<std::size_t>(e.node)]);
+    const auto found = distances(e.node);
     const double most = reach();
     const int first = size;
     for (int k = 0; k < 4; ++k) {
-      stack[size] = {4 * e.node + k, static_cast<double>(found[k])};
+      stack[size] = {childOf(e.node, k), static_cast<double>(found[k])};
       if (stack[size].distance < most) ++size;
     }
     for (int i = first; i + 1 < size; ++i) {
@@ -278,16 +285,16 @@ void TriangleTree::visitWithin(const Distances& distances, const Reach& reach,
                                const Visit& visit) const {
   Eigen::Index stack[64];
   int size = 0;
-  for (int root = 0; root < roots_; ++root) stack[size++] = roots_ + root;
+  for (int root = 0; root < roots_; ++root) stack[size++] = root;
   while (size > 0) {
     const Eigen::Index node = stack[--size];
-    if (node >= leaves_) {
-      visit(node - leaves_);
+    if (node >= innerNodes()) {
+      visit(node - innerNodes());
       continue;
     }
-    const Lanes found = distances(boxes_[static_cast<std::size_t>(node)]);
+    const Lanes found = distances(node);
     for (int k = 0; k < 4; ++k) {
-      stack[size] = 4 * node + k;
+      stack[size] = childOf(node, k);
       if (static_cast<double>(found[k]) < reach()) ++size;
     }
   }
@@ -313,7 +320,9 @@ TriangleTree::Hit TriangleTree::nearest(const Vec3& p, double squaredBound, int 
   };
   if (hintFace >= 0) visit(hintFace);
   visitNearest(
-      [&](const BoxPacket& boxes) { return boxes.squaredDistances(p - centre_, rounding_); },
+      [&](Eigen::Index node) {
+        return boxesAt(node).squaredDistances(p - centre_, rounding_, planesAt(node));
+      },
       [&] { return reach; },
       [&](Eigen::Index leaf) {
         const Lanes atLeast = triangles_[static_cast<std::size_t>(leaf)].squaredDistances(
@@ -353,8 +362,11 @@ double TriangleTree::squaredDistance(const Vec3& a, const Vec3& b, const Vec3& c
   };
   // The bound is near the distance most often: no order would bring it down much sooner.
   visitWithin(
-      [&](const BoxPacket& boxes) {
-        return squaredGaps(boxes, box).max(query.squaredDistances(boxes, rounding_)).eval();
+      [&](Eigen::Index node) {
+        const BoxPacket& boxes = boxesAt(node);
+        return squaredGaps(boxes, box)
+            .max(query.squaredDistances(boxes, rounding_, planesAt(node)))
+            .eval();
       },
       [&] { return least; }, visit);
   return least;
@@ -393,7 +405,8 @@ double TriangleTree::firstHit(const Vec3& start, const Vec3& direction, double l
   const Vec3 inverse = direction.cwiseInverse();
   constexpr double kHuge = std::numeric_limits<double>::max();
   const Vec3 from = start - centre_;
-  const auto entries = [&](const BoxPacket& boxes) -> Eigen::Array4d {
+  const auto entries = [&](Eigen::Index node) -> Eigen::Array4d {
+    const BoxPacket& boxes = boxesAt(node);
     Eigen::Array4d first = Eigen::Array4d::Zero();
     Eigen::Array4d last = Eigen::Array4d::Constant(best);
     Eigen::Array4d beside = Eigen::Array4d::Zero();

@@ -105,9 +105,18 @@ private:
   TrianglePacket trianglesOf(Eigen::Index leaf) const;
   /// Of the boxes around few triangles: what is larger is too curved to be thin.
   void makePlanes();
-  void findPlanes(Eigen::Index firstLeaf, Eigen::Index leaves, BoxPacket& boxes) const;
-  /// Calls visit(leaf) for the leaves in boxes of which `distances`(four boxes) are below
-  /// `reach`(), of four the nearest one first; a visit may bring the reach down.
+  PlanePacket planesOf(Eigen::Index firstLeaf, Eigen::Index leaves) const;
+  const PlanePacket* planesAt(Eigen::Index node) const {
+    return node < firstPlanes_ ? nullptr : &planes_[static_cast<std::size_t>(node - firstPlanes_)];
+  }
+  const BoxPacket& boxesAt(Eigen::Index node) const {
+    return boxes_[static_cast<std::size_t>(node)];
+  }
+  /// Nodes that are no leaves; these follow them.
+  Eigen::Index innerNodes() const { return static_cast<Eigen::Index>(boxes_.size()); }
+  Eigen::Index childOf(Eigen::Index node, int k) const { return roots_ + 4 * node + k; }
+  /// Calls visit(leaf) for the leaves in boxes of which `distances`(node), of its four boxes, are
+  /// below `reach`(), of four the nearest one first; a visit may bring the reach down.
   template <class Distances, class Reach, class Visit>
   void visitNearest(const Distances& distances, const Reach& reach, const Visit& visit) const;
   /// The same in any order.
@@ -126,10 +135,12 @@ private:
   std::vector<int> order_;     ///< empty: as given
   Vec3 centre_ = Vec3::Zero(); ///< that boxes and packets are relative to
   Eigen::Index leaves_ = 1;    ///< a power of two
-  /// The nodes' numbers: the root is 1, the children of i are 2i and 2i + 1. Entry i holds the
-  /// boxes of its grandchildren 4i … 4i + 3; every other level is passed over.
+  /// Walks begin at nodes 0 … roots − 1, so that they end at the leaves; the children of node i are
+  /// roots + 4i … roots + 4i + 3. Entry i holds their boxes.
+  int roots_ = 1;
   std::vector<BoxPacket> boxes_;
-  int roots_ = 1; ///< where a walk begins, for it to end at the leaves: node 1, or nodes 2 and 3
+  std::vector<PlanePacket> planes_;       ///< of the lowest nodes that have boxes
+  Eigen::Index firstPlanes_ = 0;          ///< the first of these nodes
   std::vector<TrianglePacket> triangles_; ///< of the leaves
   const TriangleTree* keptOut_ = nullptr; ///< not this alone, but all within a radius of it
   double keptOutRadius_ = 0.0;
@@ -155,16 +166,16 @@ void TriangleTree::forOverlaps(const Vec3& lower, const Vec3& upper, Eigen::Inde
   Range stack[64];
   int size = 0;
   for (int root = roots_ - 1; root >= 0; --root) {
-    stack[size++] = {roots_ + root, root * leaves_ / roots_, leaves_ / roots_};
+    stack[size++] = {root, root * leaves_ / roots_, leaves_ / roots_};
   }
   while (size > 0) {
     const Range e = stack[--size];
-    if (e.node >= leaves_) {
+    if (e.node >= innerNodes()) {
       const Eigen::Index end = firstPlace(e.firstLeaf + 1);
       for (Eigen::Index i = std::max(from, firstPlace(e.firstLeaf)); i < end; ++i) visit(i);
       continue;
     }
-    const BoxPacket& boxes = boxes_[static_cast<std::size_t>(e.node)];
+    const BoxPacket& boxes = boxesAt(e.node);
     Lanes gap = Lanes::Constant(-std::numeric_limits<float>::infinity());
     for (int k = 0; k < 3; ++k) {
       gap = gap.max(boxes.lower[k] - box.upper[k]).max(box.lower[k] - boxes.upper[k]);
@@ -173,7 +184,7 @@ void TriangleTree::forOverlaps(const Vec3& lower, const Vec3& upper, Eigen::Inde
     for (int k = 3; k >= 0; --k) {
       const Eigen::Index firstLeaf = e.firstLeaf + k * quarter;
       if (gap[k] > 0.0F || firstPlace(firstLeaf + quarter) <= from) continue;
-      stack[size++] = {4 * e.node + k, firstLeaf, quarter};
+      stack[size++] = {childOf(e.node, k), firstLeaf, quarter};
     }
   }
 }

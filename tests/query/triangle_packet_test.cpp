@@ -78,10 +78,11 @@ TEST_P(FourTrianglesTest, AreNeverNearerThanTheBound) {
   }
 }
 
-/// Around one of four triangles each, and between planes of any normal.
-BoxPacket boxesAround(const std::vector<Corners>& all, const Vec3& normal) {
+/// Boxes around one of four triangles each, and planes of any normal.
+std::pair<BoxPacket, PlanePacket> boundsOf(const std::vector<Corners>& all, const Vec3& normal) {
   BoxPacket boxes;
-  boxes.normal = normal.cast<float>();
+  PlanePacket planes;
+  planes.normal = normal.cast<float>();
   const auto below = [](double x) {
     return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity());
   };
@@ -93,12 +94,12 @@ BoxPacket boxesAround(const std::vector<Corners>& all, const Vec3& normal) {
       boxes.lower[k][i] = below(low[k]);
       boxes.upper[k][i] = -below(-high[k]);
     }
-    const Vec3 axis = boxes.normal.cast<double>();
+    const Vec3 axis = planes.normal.cast<double>();
     const Vec3 at(axis.dot(t[0]), axis.dot(t[1]), axis.dot(t[2]));
-    boxes.above[i] = below(at.minCoeff());
-    boxes.below[i] = -below(-at.maxCoeff());
+    planes.above[i] = below(at.minCoeff());
+    planes.below[i] = -below(-at.maxCoeff());
   }
-  return boxes;
+  return {boxes, planes};
 }
 
 TEST_P(FourTrianglesTest, AreNeverNearerThanTheBoundOfTheirBoxes) {
@@ -111,13 +112,13 @@ TEST_P(FourTrianglesTest, AreNeverNearerThanTheBoundOfTheirBoxes) {
     const Vec3 normal = round % 3 == 0   ? upright
                         : round % 3 == 1 ? Vec3(Vec3::UnitY())
                                          : Vec3(Vec3::Zero());
-    const BoxPacket boxes = boxesAround(all, normal);
+    const auto [boxes, planes] = boundsOf(all, normal);
     const float rounding = roundingOf(all);
     const Corners query = triangle(round);
     const Vec3 p = place(round % 7 == 0 ? 1e6 : 2.0);
     const Lanes fromTriangle =
-        QueryTriangle(query[0], query[1], query[2]).squaredDistances(boxes, rounding);
-    const Lanes fromPoint = boxes.squaredDistances(p, rounding);
+        QueryTriangle(query[0], query[1], query[2]).squaredDistances(boxes, rounding, &planes);
+    const Lanes fromPoint = boxes.squaredDistances(p, rounding, &planes);
     for (int i = 0; i < 4; ++i) {
       const Corners& t = all[static_cast<std::size_t>(i)];
       EXPECT_LE(static_cast<double>(fromTriangle[i]), squaredDistance(query, t) * (1.0 + 1e-12));
@@ -192,7 +193,8 @@ TEST(BoxPacket, TellsHowFarPiecesOfASlantedPlaneAre) {
     for (Vec3& p : all.back()) p = (turn * p).eval();
   }
   const Vec3 normal = turn * Vec3::UnitZ();
-  const Lanes found = boxesAround(all, normal).squaredDistances(Vec3::Zero(), roundingOf(all));
+  const auto [boxes, planes] = boundsOf(all, normal);
+  const Lanes found = boxes.squaredDistances(Vec3::Zero(), roundingOf(all), &planes);
   EXPECT_GT(found[0], 0.999F);
   for (int i = 1; i < 4; ++i) {
     const double reached = 2.0 * i - 1.0;
