@@ -118,7 +118,7 @@ std::optional<CavityContour> cavityContour(const OpenedSet& set,
   if (!set.deep) return CavityContour{{}, set.edge, fresh};
   const double leastVolume = std::pow(set.ball.width, 3);
   // Vertices on the border shall not count as too near for their last digits.
-  constexpr double kMore = 1e-3;
+  constexpr double kMore = 3e-4;
   const Region region{set.surface,   (1.0 + kMore) * set.wall, &*set.deep, quadric, set.edge,
                       set.fill.get()};
   BorderLattice lattice = borderLattice(region, set.edge);

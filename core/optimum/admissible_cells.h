@@ -17,8 +17,10 @@ struct RegionPart {
   Vec3 centre;
   double depth; ///< behind the surface, negative outside
   Vec3 inwards; ///< unit, where the depth grows
-  int level; ///< 0: half as wide as a cell; else a cube of 2^(level − 1) cells a side, all hollow
-  int cell;  ///< of level 0: number of the cell that it is part of; those of a cell follow on
+  /// Above 0 a cube of 2^(level − 1) cells a side, all hollow; else 2^(level − 1) as wide as a
+  /// cell.
+  int level;
+  int cell; ///< of level ≤ 0: number of the cell that it is part of; those of a cell follow on
 };
 struct RegionParts {
   double edge = 0.0; ///< of a cell

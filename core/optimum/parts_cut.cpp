@@ -26,14 +26,18 @@ public:
   std::vector<RegionPart> parts() && { return std::move(parts_); }
 
 private:
+  /// Half as wide as those at the region's own border: both may cut one of these.
+  static constexpr int kFinest = -1;
+
   void add(const RegionPart& part) {
     const double size = all_.edge * std::ldexp(1.0, part.level - 1);
     const double half = 0.5 * std::sqrt(3.0) * size;
     const std::optional<Sample> left = left_(part, half);
     if (!left || left->value <= -half) return;
-    if (part.level == 0 ? left->value >= part.depth - all_.wall : left->value >= half) {
+    const bool isSmall = part.level <= 0;
+    if (isSmall ? left->value >= part.depth - all_.wall : left->value >= half) {
       parts_.push_back(part);
-    } else if (part.level == 0) {
+    } else if (part.level == kFinest) {
       RegionPart cut = part;
       cut.depth = all_.wall + left->value;
       cut.inwards = left->slope;
@@ -43,15 +47,18 @@ private:
     }
   }
 
-  /// A cube of cells becomes smaller ones, a cell its parts.
+  /// A cube of cells becomes smaller ones, a cell its parts, and these smaller ones.
   void split(const RegionPart& part, double step) {
     for (int i = 0; i < 8; ++i) {
       RegionPart smaller = part;
-      smaller.centre += step * Vec3((i & 1) != 0 ? 1.0 : -1.0, (i & 2) != 0 ? 1.0 : -1.0,
-                                    (i & 4) != 0 ? 1.0 : -1.0);
+      const Vec3 way = step * Vec3((i & 1) != 0 ? 1.0 : -1.0, (i & 2) != 0 ? 1.0 : -1.0,
+                                   (i & 4) != 0 ? 1.0 : -1.0);
+      smaller.centre += way;
       smaller.level = part.level - 1;
-      // Nothing else cuts it.
-      smaller.depth = std::max(part.depth - std::sqrt(3.0) * step, all_.wall + 2.0 * step);
+      // Nothing else cuts a cube of cells; a part keeps its plane.
+      smaller.depth = part.level > 0
+                          ? std::max(part.depth - std::sqrt(3.0) * step, all_.wall + 2.0 * step)
+                          : part.depth + part.inwards.dot(way);
       smaller.cell = part.level == 1 ? cells_ : part.cell;
       add(smaller);
     }

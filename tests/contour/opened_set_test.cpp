@@ -57,5 +57,20 @@ TEST(OpenedSet, IsEmptyWhereNoBallFits) {
   EXPECT_TRUE(partsWithin(set, admissibleParts(tree, 0.1)).parts.empty());
 }
 
+// A disc that tapers to its rim: rooms end where both walls and the ball's reach meet.
+TEST(OpenedSet, IsAboutAsLargeInCellsOfAnySize) {
+  const double wall = 0.05;
+  const Mat3 turn = Eigen::AngleAxisd(0.6, Vec3(3, 1, 2).normalized()).toRotationMatrix();
+  const TriangleMesh outer =
+      transformed(revolved({{0.0, 0.09}, {1.0, 0.06}, {1.0, -0.06}, {0.0, -0.09}}, 96), turn);
+  const TriangleTree tree(outer.vertices, outer.faces);
+  const OpenedSet set = openedSet(tree, wall, {wall, 0.01}, 0.03);
+  const auto volume = [&](const RegionParts& parts) {
+    return cellsOf(partsWithin(set, parts)).col(0).sum();
+  };
+  const double fine = volume(admissibleParts(tree, wall, 2000000));
+  EXPECT_NEAR(volume(admissibleParts(tree, wall, 20000)), fine, 6e-3 * fine);
+}
+
 } // namespace
 } // namespace massprops::testing

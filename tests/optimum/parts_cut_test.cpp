@@ -1,0 +1,61 @@
+// What is left of cells outside of a surface, against closed forms.
+#include "core/optimum/parts_cut.h"
+
+#include "core/base/angles.h"
+#include "core/physics/moments.h"
+#include "shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace massprops::testing {
+namespace {
+
+/// Of what is deeper than `depth` between a box of edge 2 and a ball within it.
+Moments deepBetween(double radius, const Vec3& centre, double depth) {
+  const TriangleMesh outer = box({2.0, 2.0, 2.0}, 3);
+  const Vec3 middle =
+      0.5 * (outer.vertices.colwise().minCoeff() + outer.vertices.colwise().maxCoeff()).transpose();
+  const TriangleMesh ball = shifted(scaled(sphere(24), radius), middle + centre);
+  const TriangleTree outside(outer.vertices, outer.faces);
+  const TriangleTree inside(ball.vertices, ball.faces);
+  const AdmissibleCells cells =
+      cellsOf(partsOutside(inside, depth, admissibleParts(outside, depth)));
+  Moments sum = cells.colwise().sum().transpose();
+  sum.segment<3>(1) -= sum[0] * middle;
+  return sum;
+}
+
+double ballVolume(double radius) {
+  return 4.0 / 3.0 * kPi * std::pow(radius, 3);
+}
+
+TEST(PartsOutside, AreWhatABallLeavesOfABox) {
+  const Moments deep = deepBetween(0.5, {0.1, -0.2, 0.05}, 0.1);
+  const double ball = ballVolume(0.6);
+  const double volume = std::pow(1.8, 3) - ball;
+  EXPECT_NEAR(deep[0], volume, 2e-3 * volume);
+  const Vec3 first = -ball * Vec3(0.1, -0.2, 0.05);
+  EXPECT_LT((deep.segment<3>(1) - first).norm(), 2e-3 * volume);
+}
+
+// At the narrowest place the layers leave a twentieth of the box.
+TEST(PartsOutside, HaveBothBordersOfASheet) {
+  const double depth = 0.1;
+  const double left = 0.1;
+  const double radius = 1.0 - 2.0 * depth - left;
+  const double volume = std::pow(2.0 - 2.0 * depth, 3) - ballVolume(radius + depth);
+  EXPECT_NEAR(deepBetween(radius, Vec3::Zero(), depth)[0], volume, 3e-3 * volume);
+}
+
+TEST(PartsOutside, AreNoneInsideOfTheSurface) {
+  const TriangleMesh outer = box({1.0, 1.0, 1.0}, 2);
+  const TriangleMesh around = shifted(box({3.0, 3.0, 3.0}, 2), Vec3::Constant(-1.0));
+  const TriangleTree tree(outer.vertices, outer.faces);
+  const TriangleTree larger(around.vertices, around.faces);
+  EXPECT_TRUE(partsOutside(larger, 0.1, admissibleParts(tree, 0.1)).parts.empty());
+}
+
+} // namespace
+} // namespace massprops::testing
