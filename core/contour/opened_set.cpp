@@ -21,6 +21,10 @@ constexpr double kMargin = 1e-5;
 /// reached.
 constexpr double kReach = 1.8;
 
+/// Level of the parts where the opening ends: in rooms hardly wider than the ball other borders are
+/// next to it.
+constexpr int kFiner = -1;
+
 constexpr double kAll = std::numeric_limits<double>::infinity();
 
 /// How far parts are within the reach of the deep part.
@@ -85,7 +89,8 @@ double volumeInDoubt(const OpenedSet& set, const RegionParts& all) {
 
 RegionParts partsWithin(const OpenedSet& set, const RegionParts& all) {
   if (!set.deep) return {all.edge, all.wall, {}};
-  RegionParts result = partsLeft(all, [&] { return WithinReach(*set.deep); });
+  RegionParts result = partsLeft(
+      all, [&] { return WithinReach(*set.deep); }, kFiner);
   if (!set.fill) return result;
   return partsLeft(result, [&] {
     return [&](const RegionPart& part, double) { return set.fill->at(part.centre); };

@@ -15,7 +15,8 @@ namespace {
 /// Takes off what lies on the negative side of something.
 class PartsCut {
 public:
-  PartsCut(const RegionParts& all, SideOfPart left) : all_(all), left_(std::move(left)) {}
+  PartsCut(const RegionParts& all, SideOfPart left, int finest)
+      : all_(all), left_(std::move(left)), finest_(finest) {}
 
   void add(const RegionPart& part, int number) {
     constexpr int kCells = 1 << 9; // of the largest cube
@@ -26,9 +27,6 @@ public:
   std::vector<RegionPart> parts() && { return std::move(parts_); }
 
 private:
-  /// Half as wide as those at the region's own border: both may cut one of these.
-  static constexpr int kFinest = -1;
-
   void add(const RegionPart& part) {
     const double size = all_.edge * std::ldexp(1.0, part.level - 1);
     const double half = 0.5 * std::sqrt(3.0) * size;
@@ -37,7 +35,7 @@ private:
     const bool isSmall = part.level <= 0;
     if (isSmall ? left->value >= part.depth - all_.wall : left->value >= half) {
       parts_.push_back(part);
-    } else if (part.level == kFinest) {
+    } else if (part.level == finest_) {
       RegionPart cut = part;
       cut.depth = all_.wall + left->value;
       cut.inwards = left->slope;
@@ -67,9 +65,13 @@ private:
 
   const RegionParts& all_;
   SideOfPart left_;
+  int finest_;
   std::vector<RegionPart> parts_;
   int cells_ = 0; ///< the next of the numbers of cells that were whole
 };
+
+/// Half as wide as the parts at the region's own border: in thin layers both borders are near.
+constexpr int kFiner = -1;
 
 /// How far parts are from a surface, beyond a depth.
 class OutsideOf {
@@ -110,13 +112,14 @@ private:
 
 } // namespace
 
-RegionParts partsLeft(const RegionParts& all, const std::function<SideOfPart()>& makeSide) {
+RegionParts partsLeft(const RegionParts& all, const std::function<SideOfPart()>& makeSide,
+                      int finest) {
   RegionParts result{all.edge, all.wall, {}};
   constexpr Eigen::Index kRun = 512;
   const auto count = static_cast<Eigen::Index>(all.parts.size());
   std::vector<std::vector<RegionPart>> chunks(static_cast<std::size_t>((count + kRun - 1) / kRun));
   forChunks(count, kRun, [&](const Chunk& chunk) {
-    PartsCut parts(all, makeSide());
+    PartsCut parts(all, makeSide(), finest);
     for (Eigen::Index i = chunk.begin; i < chunk.end; ++i) {
       parts.add(all.parts[static_cast<std::size_t>(i)], static_cast<int>(i));
     }
@@ -129,7 +132,8 @@ RegionParts partsLeft(const RegionParts& all, const std::function<SideOfPart()>&
 }
 
 RegionParts partsOutside(const TriangleTree& closed, double depth, const RegionParts& all) {
-  return partsLeft(all, [&] { return OutsideOf(closed, depth); });
+  return partsLeft(
+      all, [&] { return OutsideOf(closed, depth); }, kFiner);
 }
 
 } // namespace massprops

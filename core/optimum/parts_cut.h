@@ -14,9 +14,11 @@ namespace massprops {
 /// cube.
 using SideOfPart = std::function<std::optional<Sample>(const RegionPart& part, double half)>;
 
-/// What lies on the positive side of something; what its border passes through is divided, and cut
-/// by a plane. `makeSide`: called for each run of parts anew.
-RegionParts partsLeft(const RegionParts& all, const std::function<SideOfPart()>& makeSide);
+/// What lies on the positive side of something; what its border passes through is divided down to
+/// level `finest` ≤ 0, and cut by a plane: by the nearer one of two where another border is next to
+/// it. `makeSide`: called for each run of parts anew.
+RegionParts partsLeft(const RegionParts& all, const std::function<SideOfPart()>& makeSide,
+                      int finest = 0);
 
 /// What lies outside of a closed surface and at least `depth`, a length, away from it. \pre
 /// outward orientation
