@@ -72,9 +72,13 @@ InsetProbe::InsetProbe(const Region& region) : region_(region), inside_(region.s
   if (region.deep != nullptr) insideDeep_.emplace(region.deep->border);
 }
 
-bool InsetProbe::isInside(const Vec3& x) const {
+bool InsetProbe::isInside(const Vec3& x, bool isNearest) const {
   const bool isNearLast = (x - last_.centre).squaredNorm() < last_.radius * last_.radius;
-  return isNearLast ? last_.isInside : inside_.contains(x, nearest_);
+  if (isNearLast) return last_.isInside;
+  // Only the nearest face tells the side.
+  constexpr double kAnywhere = std::numeric_limits<double>::infinity();
+  return inside_.contains(x, isNearest ? nearest_
+                                       : region_.surface.nearest(x, kAnywhere, nearest_.face));
 }
 
 Sample InsetProbe::at(const Vec3& x, double horizon) {
@@ -91,7 +95,10 @@ Sample InsetProbe::behindWalls(const Vec3& x, double horizon) {
   const double exact = (deep != nullptr ? deep->depth : region_.wall) + horizon;
   nearest_ = region_.surface.nearest(x, std::numeric_limits<double>::infinity(), nearest_.face,
                                      exact * exact);
-  last_ = {x, std::sqrt(nearest_.squaredDistance), isInside(x)};
+  const double found = std::sqrt(nearest_.squaredDistance);
+  // Farther away it may be another point than the nearest one, which the ball must not reach.
+  const double clearOf = found > exact ? std::max(exact, found / TriangleTree::kSlack) : found;
+  last_ = {x, clearOf, isInside(x, found <= exact)};
   const TriangleTree::Hit clear = region_.surface.clearance(x, nearest_);
   const double distance = std::sqrt(clear.squaredDistance);
   const double sign = last_.isInside ? 1.0 : -1.0;

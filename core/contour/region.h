@@ -57,7 +57,8 @@ private:
   /// Without what carries ceilings.
   Sample behindWalls(const Vec3& x, double horizon);
   Sample ofOpening(const Vec3& x, double horizon, const Sample& inset);
-  bool isInside(const Vec3& x) const;
+  /// `isNearest`: what was found is the nearest point, not only about as near.
+  bool isInside(const Vec3& x, bool isNearest) const;
 
   const Region& region_;
   PointInMesh inside_;
