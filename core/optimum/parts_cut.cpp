@@ -35,7 +35,7 @@ private:
     const bool isSmall = part.level <= 0;
     if (isSmall ? left->value >= part.depth - all_.wall : left->value >= half) {
       parts_.push_back(part);
-    } else if (part.level == finest_) {
+    } else if (part.level <= finest_) {
       RegionPart cut = part;
       cut.depth = all_.wall + left->value;
       cut.inwards = left->slope;
