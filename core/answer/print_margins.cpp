@@ -7,8 +7,11 @@
 #include "core/reduced/hollow_body.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace massprops {
@@ -35,23 +38,44 @@ double greatestDeviation(double most, const std::function<bool(double)>& holds) 
   return good;
 }
 
-/// What a slicer prints as infill: moments of the material farther than the perimeters from its
-/// surfaces.
-Moments deepMaterial(const CavityTask& task, const CavityResult& cavity, double perimeters) {
-  // Thin sheets between the perimeters of two surfaces ask for small cells.
-  constexpr int kCells = 200000;
-  const TriangleTree& given = task.surface;
-  const auto deepIn = [&](const TriangleTree& outer) {
-    return admissibleParts(outer, perimeters, kCells);
-  };
-  // A tree of the model costs as much as all else here.
-  const bool isGiven = !given.keepsOut() && cavity.outer == given.vertices();
-  const RegionParts solid =
-      isGiven ? deepIn(given) : deepIn({cavity.outer, given.faces(), TriangleTree::Order::Spatial});
-  const TriangleTree inner(cavity.inner, cavity.cavity.faces);
-  const bool isHollow = cavity.cavity.faces.rows() > 0;
-  const AdmissibleCells cells = cellsOf(isHollow ? partsOutside(inner, perimeters, solid) : solid);
-  return cells.rows() > 0 ? Moments(cells.colwise().sum().transpose()) : Moments(Moments::Zero());
+/// What a slicer prints as infill: the material farther than the perimeters from its surfaces.
+class DeepMaterial {
+public:
+  DeepMaterial(const CavityTask& task, const CavityResult& cavity, double perimeters)
+      : inner_(cavity.inner, cavity.cavity.faces), perimeters_(perimeters) {
+    // A tree of the model costs as much as all else here.
+    const TriangleTree& given = task.surface;
+    const bool isGiven = !given.keepsOut() && cavity.outer == given.vertices();
+    if (!isGiven) own_.emplace(cavity.outer, given.faces(), TriangleTree::Order::Spatial);
+    outer_ = isGiven ? &given : &*own_;
+  }
+
+  /// `cells`: in the model's bounding box.
+  Moments moments(int cells) const {
+    RegionParts parts = admissibleParts(*outer_, perimeters_, cells);
+    if (inner_.faces().rows() > 0) parts = partsOutside(inner_, perimeters_, parts);
+    const AdmissibleCells deep = cellsOf(parts);
+    return deep.rows() > 0 ? Moments(deep.colwise().sum().transpose()) : Moments(Moments::Zero());
+  }
+
+private:
+  std::optional<TriangleTree> own_;
+  const TriangleTree* outer_ = nullptr;
+  TriangleTree inner_;
+  double perimeters_;
+};
+
+/// Thin sheets between the perimeters of two surfaces ask for small cells, but not always matter.
+double leastInfill(const std::function<double(int)>& infillInCells) {
+  constexpr std::array<int, 3> kCells{3125, 25000, 200000}; // half as wide each time
+  constexpr double kNearEnough = 0.01;
+  double infill = infillInCells(kCells[0]);
+  for (std::size_t i = 1; i < kCells.size(); ++i) {
+    const double before = infill;
+    infill = infillInCells(kCells[i]);
+    if (std::abs(infill - before) <= kNearEnough) break;
+  }
+  return infill;
 }
 
 /// Vertices of the cavity that lie farthest in directions all round: linear functionals, and with
@@ -89,10 +113,13 @@ PrintMargins printMargins(const CavityTask& task, const CavityResult& cavity,
   const Moments body = hollowBody(task, cavity).mass;
   const Faces& faces = cavity.cavity.faces;
   PrintMargins margins;
-  const Moments deep = deepMaterial(task, cavity, perimeters);
-  margins.infill = 1.0 - greatestDeviation(1.0, [&](double missing) {
-                     return deep[0] == 0.0 || verdict.isReached(body - missing * deep);
-                   });
+  const DeepMaterial material(task, cavity, perimeters);
+  margins.infill = leastInfill([&](int cells) {
+    const Moments deep = material.moments(cells);
+    return 1.0 - greatestDeviation(1.0, [&](double missing) {
+             return deep[0] == 0.0 || verdict.isReached(body - missing * deep);
+           });
+  });
   if (faces.rows() == 0) return margins;
 
   const Moments inner = moments(cavity.inner, faces);

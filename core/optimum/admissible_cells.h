@@ -1,8 +1,10 @@
 // What may be hollow, cut into small cells.
 #pragma once
 
+#include "core/query/grid_function.h"
 #include "core/query/triangle_tree.h"
 
+#include <optional>
 #include <vector>
 
 namespace massprops {
@@ -21,6 +23,8 @@ struct RegionPart {
   /// cell.
   int level;
   int cell; ///< of level ≤ 0: number of the cell that it is part of; those of a cell follow on
+  /// Of level ≤ 0: how far the middle is from another border, whose slope is against `inwards`.
+  std::optional<Sample> opposite = {};
 };
 struct RegionParts {
   double edge = 0.0; ///< of a cell
@@ -34,7 +38,7 @@ RegionParts admissibleParts(const TriangleTree& surface, double wall, int cells 
 /// The same with smaller cells where the rooms are narrow, a few across their mean width.
 RegionParts resolvedParts(const TriangleTree& surface, double wall);
 
-/// The border is taken as a plane in each part of a cell.
+/// The border is taken as a plane in each part of a cell, or as two where it has another one.
 AdmissibleCells cellsOf(const RegionParts& region);
 
 /// A surface of area A passes through about so many times A/h² cubes of edge h.

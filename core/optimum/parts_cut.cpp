@@ -30,18 +30,39 @@ private:
   void add(const RegionPart& part) {
     const double size = all_.edge * std::ldexp(1.0, part.level - 1);
     const double half = 0.5 * std::sqrt(3.0) * size;
+    const bool isBeyondItsPlane =
+        part.level <= 0 && part.depth + halfAlong(part.inwards, part) <= all_.wall;
+    if (isBeyondItsPlane) return;
     const std::optional<Sample> left = left_(part, half);
     if (!left || left->value <= -half) return;
-    const bool isSmall = part.level <= 0;
-    if (isSmall ? left->value >= part.depth - all_.wall : left->value >= half) {
+    if (leavesAll(*left, part)) {
       parts_.push_back(part);
     } else if (part.level <= finest_) {
-      RegionPart cut = part;
-      cut.depth = all_.wall + left->value;
-      cut.inwards = left->slope;
-      parts_.push_back(cut);
+      parts_.push_back(part);
+      cutOff(*left, parts_.back());
     } else {
       split(part, 0.25 * size);
+    }
+  }
+
+  /// Half of how wide a part is along a direction.
+  double halfAlong(const Vec3& direction, const RegionPart& part) const {
+    return 0.5 * all_.edge * std::ldexp(1.0, part.level - 1) * direction.cwiseAbs().sum();
+  }
+
+  bool leavesAll(const Sample& left, const RegionPart& part) const {
+    if (left.value >= halfAlong(left.slope, part)) return true;
+    const bool isAlongOwn = left.slope.dot(part.inwards) >= 0.0;
+    return part.level <= 0 && isAlongOwn && left.value >= part.depth - all_.wall;
+  }
+
+  /// Of borders on the same side the nearer one counts.
+  void cutOff(const Sample& left, RegionPart& part) const {
+    if (left.slope.dot(part.inwards) >= 0.0) {
+      part.depth = all_.wall + left.value;
+      part.inwards = left.slope;
+    } else if (!part.opposite || left.value < part.opposite->value) {
+      part.opposite = left;
     }
   }
 
@@ -57,6 +78,7 @@ private:
       smaller.depth = part.level > 0
                           ? std::max(part.depth - std::sqrt(3.0) * step, all_.wall + 2.0 * step)
                           : part.depth + part.inwards.dot(way);
+      if (smaller.opposite) smaller.opposite->value += smaller.opposite->slope.dot(way);
       smaller.cell = part.level == 1 ? cells_ : part.cell;
       add(smaller);
     }
@@ -70,9 +92,6 @@ private:
   int cells_ = 0; ///< the next of the numbers of cells that were whole
 };
 
-/// Half as wide as the parts at the region's own border: in thin layers both borders are near.
-constexpr int kFiner = -1;
-
 /// How far parts are from a surface, beyond a depth.
 class OutsideOf {
 public:
@@ -82,10 +101,14 @@ public:
   std::optional<Sample> operator()(const RegionPart& part, double half) {
     const Vec3& x = part.centre;
     const double farthest = depth_ + half;
+    // What the last part tells of those around it.
+    const double moved = (x - last_.centre).norm();
+    if (!last_.isInside && last_.radius - moved >= farthest) return farOutside();
+    if (near_.face >= 0 && (x - near_.point).norm() + half <= depth_) return std::nullopt;
     near_ = closed_.nearest(x, farthest * farthest, near_.face);
     const bool isNear = near_.face >= 0;
     const double distance = isNear ? std::sqrt(near_.squaredDistance) : farthest;
-    if ((x - last_.centre).squaredNorm() >= last_.radius * last_.radius)
+    if (moved >= last_.radius)
       last_.isInside = isNear ? inside_.contains(x, near_) : inside_.contains(x);
     last_.centre = x;
     last_.radius = distance;
@@ -94,10 +117,12 @@ public:
       return Sample{sign * distance - depth_, sign * (x - near_.point).normalized()};
     }
     if (last_.isInside) return std::nullopt;
-    return Sample{std::numeric_limits<double>::infinity(), Vec3::UnitX()};
+    return farOutside();
   }
 
 private:
+  static Sample farOutside() { return {std::numeric_limits<double>::infinity(), Vec3::UnitX()}; }
+
   const TriangleTree& closed_;
   PointInMesh inside_;
   double depth_;
@@ -132,8 +157,7 @@ RegionParts partsLeft(const RegionParts& all, const std::function<SideOfPart()>&
 }
 
 RegionParts partsOutside(const TriangleTree& closed, double depth, const RegionParts& all) {
-  return partsLeft(
-      all, [&] { return OutsideOf(closed, depth); }, kFiner);
+  return partsLeft(all, [&] { return OutsideOf(closed, depth); });
 }
 
 } // namespace massprops

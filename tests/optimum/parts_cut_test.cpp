@@ -13,16 +13,16 @@ namespace massprops::testing {
 namespace {
 
 /// Of what is deeper than `depth` between a box of edge 2 and a ball within it.
-Moments deepBetween(double radius, const Vec3& centre, double depth) {
+Moments deepBetween(double radius, const Vec3& centre, double depth, int cells = 20000) {
   const TriangleMesh outer = box({2.0, 2.0, 2.0}, 3);
   const Vec3 middle =
       0.5 * (outer.vertices.colwise().minCoeff() + outer.vertices.colwise().maxCoeff()).transpose();
   const TriangleMesh ball = shifted(scaled(sphere(24), radius), middle + centre);
   const TriangleTree outside(outer.vertices, outer.faces);
   const TriangleTree inside(ball.vertices, ball.faces);
-  const AdmissibleCells cells =
-      cellsOf(partsOutside(inside, depth, admissibleParts(outside, depth)));
-  Moments sum = cells.colwise().sum().transpose();
+  const AdmissibleCells deep =
+      cellsOf(partsOutside(inside, depth, admissibleParts(outside, depth, cells)));
+  Moments sum = deep.colwise().sum().transpose();
   sum.segment<3>(1) -= sum[0] * middle;
   return sum;
 }
@@ -47,6 +47,21 @@ TEST(PartsOutside, HaveBothBordersOfASheet) {
   const double radius = 1.0 - 2.0 * depth - left;
   const double volume = std::pow(2.0 - 2.0 * depth, 3) - ballVolume(radius + depth);
   EXPECT_NEAR(deepBetween(radius, Vec3::Zero(), depth)[0], volume, 3e-3 * volume);
+}
+
+// Of two balls, a tenth of a part's width apart.
+TEST(PartsOutside, HaveSheetsThinnerThanTheyAre) {
+  const double depth = 0.1;
+  constexpr int kAcross = 20;
+  const double thickness = 0.1 * 0.5 * 2.0 / kAcross;
+  const TriangleMesh outer = sphere(48);
+  const TriangleMesh inner = scaled(sphere(48), 1.0 - 2.0 * depth - thickness);
+  const TriangleTree outside(outer.vertices, outer.faces);
+  const TriangleTree inside(inner.vertices, inner.faces);
+  const AdmissibleCells deep = cellsOf(
+      partsOutside(inside, depth, admissibleParts(outside, depth, kAcross * kAcross * kAcross)));
+  const double volume = ballVolume(1.0 - depth) - ballVolume(1.0 - depth - thickness);
+  EXPECT_NEAR(deep.col(0).sum(), volume, 0.1 * volume);
 }
 
 TEST(PartsOutside, AreNoneInsideOfTheSurface) {
