@@ -2,12 +2,14 @@
 #include "core/optimum/parts_cut.h"
 
 #include "core/base/angles.h"
+#include "core/base/cube_cut.h"
 #include "core/physics/moments.h"
 #include "shapes.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
 namespace massprops::testing {
 namespace {
@@ -62,6 +64,36 @@ TEST(PartsOutside, HaveSheetsThinnerThanTheyAre) {
       partsOutside(inside, depth, admissibleParts(outside, depth, kAcross * kAcross * kAcross)));
   const double volume = ballVolume(1.0 - depth) - ballVolume(1.0 - depth - thickness);
   EXPECT_NEAR(deep.col(0).sum(), volume, 0.1 * volume);
+}
+
+// A border that parts have been divided at down to a level is cut by another one that asks for
+// larger parts.
+TEST(PartsLeft, AreThoseOfTwoBordersInAnyOrder) {
+  const TriangleMesh outer = box({1.0, 1.0, 1.0}, 2);
+  const TriangleTree tree(outer.vertices, outer.faces);
+  const RegionParts all = admissibleParts(tree, 0.1, 1000);
+  const auto plane = [](const Vec3& slope, double at) {
+    return [=] {
+      return [=](const RegionPart& part, double) {
+        return std::optional<Sample>({part.centre.dot(slope) - at, slope});
+      };
+    };
+  };
+  const Vec3 middle =
+      0.5 * (outer.vertices.colwise().minCoeff() + outer.vertices.colwise().maxCoeff()).transpose();
+  const Vec3 slope = Vec3(2, 1, 2) / 3.0;
+  const double at = slope.dot(middle);
+  const double thickness = 0.01;
+  const auto low = plane(slope, at - 0.5 * thickness);
+  const auto high = plane(-slope, -at - 0.5 * thickness);
+  const double fineFirst = cellsOf(partsLeft(partsLeft(all, low, -1), high)).col(0).sum();
+  const double coarseFirst = cellsOf(partsLeft(partsLeft(all, high), low, -1)).col(0).sum();
+  // What may be hollow is a cube of edge 0.8.
+  const double offset = 0.5 * thickness / 0.8;
+  const double layer =
+      std::pow(0.8, 3) * (cubeCut(slope, -offset).volume - cubeCut(slope, offset).volume);
+  EXPECT_NEAR(fineFirst, layer, 5e-3 * layer);
+  EXPECT_NEAR(coarseFirst, layer, 5e-3 * layer);
 }
 
 TEST(PartsOutside, AreNoneInsideOfTheSurface) {
