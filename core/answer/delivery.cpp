@@ -10,9 +10,12 @@ namespace massprops {
 namespace {
 
 Vector wallOf(const CavityTask& task, const CavityResult& cavity) {
-  return task.model.outer ? wallAtVertices(cavity.inner, {cavity.outer, task.surface.faces(),
-                                                          TriangleTree::Order::Spatial})
-                          : wallAtVertices(cavity.inner, task.surface);
+  const std::vector<int>& near = cavity.inspection.nearestFace;
+  return task.model.outer
+             ? wallAtVertices(cavity.inner,
+                              {cavity.outer, task.surface.faces(), TriangleTree::Order::Spatial},
+                              near)
+             : wallAtVertices(cavity.inner, task.surface, near);
 }
 
 /// Whether the input and the cavity bound the material together.

@@ -3,9 +3,13 @@
 
 #include "core/query/triangle_tree.h"
 
+#include <vector>
+
 namespace massprops {
 
 /// For each of n points (n×3) its distance from the outer surface, exact; n entries, same unit.
-Vector wallAtVertices(const Points& points, const TriangleTree& outer);
+/// `near`: for each a face that may be near, which makes it quicker, or −1.
+Vector wallAtVertices(const Points& points, const TriangleTree& outer,
+                      const std::vector<int>& near);
 
 } // namespace massprops

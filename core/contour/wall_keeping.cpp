@@ -83,8 +83,8 @@ std::vector<int> keepWall(ClearanceQuery& clearance, double wall, TriangleMesh& 
   constexpr double kGrowth = 0.5;
   const Faces faces = movingFaces(cavity.faces, rests);
   for (int round = 0;; ++round) {
-    clearance.measure(cavity.vertices, faces, wall);
-    Vector missing = shortfalls(wall, clearance.faceDistances(), faces, cavity.vertices.rows());
+    const Vector& distances = clearance.measureFaces(cavity.vertices, faces, wall);
+    Vector missing = shortfalls(wall, distances, faces, cavity.vertices.rows());
     for (std::size_t v = 0; v < rests.size(); ++v) {
       if (rests[v] != 0) missing[static_cast<Eigen::Index>(v)] = 0.0;
     }

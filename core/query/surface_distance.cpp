@@ -284,6 +284,15 @@ Vector ClearanceQuery::faceDistancesAtMost(const Points& vertices, const Faces& 
   return atMost;
 }
 
+const Vector& ClearanceQuery::measureFaces(const Points& vertices, const Faces& faces,
+                                           double horizon) {
+  Measurement measurement(vertices, faces, other_, horizon, memory_);
+  measurement.measureVertices();
+  measurement.measureFaces();
+  memory_ = measurement.memory();
+  return memory_.faceBounds;
+}
+
 Clearance ClearanceQuery::measure(const Points& vertices, const Faces& faces, double horizon) {
   Clearance result;
   if (faces.rows() == 0) {

@@ -30,13 +30,13 @@ public:
   /// `horizon`: distances above it need not be exact.
   Clearance measure(const Points& vertices, const Faces& faces, double horizon);
 
+  /// For every face alone: below the horizon exact to a billionth, above it at least the horizon.
+  const Vector& measureFaces(const Points& vertices, const Faces& faces, double horizon);
+
   /// For every face at most, quicker by far: how near it comes to the faces that are next to its
   /// corners; above the horizon at least that.
   Vector faceDistancesAtMost(const Points& vertices, const Faces& faces, double horizon);
 
-  /// Of the last measurement, for every face: below its horizon exact to a billionth, above it at
-  /// least the horizon.
-  const Vector& faceDistances() const { return memory_.faceBounds; }
   /// Of the last measurement, for every vertex; −1 without a face.
   const std::vector<int>& nearestFace() const { return memory_.nearestFace; }
 
