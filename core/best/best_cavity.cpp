@@ -216,6 +216,15 @@ struct Made {
   bool isFinished = true; ///< else hardly polished and not inspected
 };
 
+/// Hardly polished, not inspected.
+CavityResult roughCavity(const CavityTask& task, double edge, const Contour& contour) {
+  CavityResult rough = resultOf(task, contour.mesh);
+  Contour adjusted = contour;
+  polish(task, task.bound->worth, Moving::CutAlone, edge, {}, adjusted);
+  CavityResult moved = resultOf(task, adjusted.mesh);
+  return servesBetter(task, moved, rough) ? moved : rough;
+}
+
 /// In cubes of the set's edge. `farthest`: what may be left of what is possible for the cavity to
 /// be worth finishing.
 Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, double farthest) {
@@ -223,11 +232,7 @@ Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, double farth
   CavityResult rough;
   const auto isWorthIt = [&](const Contour& contour) {
     if (!std::isfinite(farthest)) return true;
-    rough = resultOf(task, contour.mesh);
-    Contour adjusted = contour;
-    polish(task, quadric, Moving::CutAlone, deliverable.edge, {}, adjusted);
-    CavityResult moved = resultOf(task, adjusted.mesh);
-    if (servesBetter(task, moved, rough)) rough = std::move(moved);
+    rough = roughCavity(task, deliverable.edge, contour);
     return hollowBody(task, rough).violation > kFeasibility || gapOf(task, rough) <= farthest;
   };
   const double roomy = wallBeforeRounding(task);
@@ -269,20 +274,55 @@ Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, double farth
 
 constexpr double kAll = std::numeric_limits<double>::infinity();
 
-/// In finer cubes where those of the set lose too much.
+/// Whether the quadric leaves room on both sides.
+bool isCut(const CavityTask& task) {
+  const Vec3 low = task.surface.lower();
+  const Vec3 high = task.surface.upper();
+  const Region region{task.surface, task.wall, nullptr, task.bound->worth};
+  return sideOfCut(region, 0.5 * (low + high), 0.5 * (high - low).norm()) != Side::Positive;
+}
+
+/// Of cubes that leave little of what is possible: by what larger ones leave, where that depends
+/// on the goal.
+double edgeThatWillDo(const CavityTask& task, const OpenedSet& deliverable) {
+  constexpr double kLarger = 2.0;
+  constexpr double kWanted = 0.010; // before all is polished
+  constexpr double kPower = 1.3;    // of the edge, that the gap goes with
+  constexpr double kUncut = 1.1;
+  // Ceilings that shall carry themselves ask for more.
+  if (deliverable.fill) return deliverable.edge;
+  if (!isCut(task)) return kUncut * deliverable.edge;
+  OpenedSet coarse = deliverable;
+  coarse.edge *= kLarger;
+  double gap = 0.0;
+  cavityContour(coarse, task.bound->worth, [&](const Contour& contour) {
+    const CavityResult rough = roughCavity(task, coarse.edge, contour);
+    if (hollowBody(task, rough).violation <= kFeasibility) gap = gapOf(task, rough);
+    return false;
+  });
+  if (gap <= 0.0) return deliverable.edge;
+  // In steps: the last digits of the gap depend on where the model lies.
+  constexpr double kSteps = 4.0; // that double the edge
+  const double steps = kSteps * std::log2(kLarger * std::pow(kWanted / gap, 1.0 / kPower));
+  const double factor = std::exp2(std::round(std::clamp(steps, -3.0, 1.0)) / kSteps);
+  return std::max(factor * deliverable.edge, kLeastEdge);
+}
+
+/// In cubes as fine as it takes to lose little.
 CavityResult inFineCubes(const CavityTask& task, OpenedSet deliverable) {
-  // What cubes lose goes with the square of their edge, what they take as well.
-  constexpr std::array<double, 3> kEnough{0.015, 0.025, kAll}; // of what is possible is left
-  constexpr double kSlack = 1.1;                               // before all is polished
+  constexpr std::array<double, 2> kEnough{0.018, 0.025};        // of what is possible is left
+  constexpr std::array<double, 2> kRoughEnough{0.0135, 0.0275}; // before all is polished
   constexpr double kWanted = 0.01;
-  Made best = cavityOf(task, deliverable, kSlack * kEnough[0]);
+  deliverable.edge = edgeThatWillDo(task, deliverable);
+  Made best = cavityOf(task, deliverable, kRoughEnough[0]);
   double edgeOfBest = deliverable.edge;
-  for (std::size_t i = 0; i + 1 < kEnough.size(); ++i) {
+  for (std::size_t i = 0; i < kEnough.size(); ++i) {
     const double gap = gapOf(task, best.result);
     if (gap <= kEnough[i] || best.result.status == CavityStatus::NoRoom) break;
     deliverable.edge *= std::clamp(std::sqrt(kWanted / gap), 0.5, 0.8);
     if (deliverable.edge < kLeastEdge) break;
-    Made finer = cavityOf(task, deliverable, kSlack * kEnough[i + 1]);
+    const bool isLast = i + 1 == kEnough.size();
+    Made finer = cavityOf(task, deliverable, isLast ? kAll : kRoughEnough[i + 1]);
     finer.result.effort += best.result.effort;
     const bool isBetter = servesBetter(task, finer.result, best.result);
     best.result.effort = finer.result.effort;

@@ -36,7 +36,7 @@ void expectCarried(const TriangleMesh& model, Options options, double largestGap
   constexpr double kReach = 2.5 + 2.0 * kSide;
   const Overhang overhang = overhangOf(carried);
   EXPECT_LE(overhang.reach, kReach);
-  EXPECT_LT(overhang.reach, 2.0 / 3.0 * overhangOf(flat).reach);
+  EXPECT_LT(overhang.reach, overhangOf(flat).reach - kSide);
   EXPECT_EQ(overhang.islands, 0);
   EXPECT_TRUE(std::get<bool>(carried.report.at("solved")));
   EXPECT_LE(number(carried, "ceiling_span"), 5.0);
