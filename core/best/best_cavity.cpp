@@ -304,7 +304,7 @@ double edgeThatWillDo(const CavityTask& task, const OpenedSet& deliverable) {
   // In steps: the last digits of the gap depend on where the model lies.
   constexpr double kSteps = 4.0; // that double the edge
   const double steps = kSteps * std::log2(kLarger * std::pow(kWanted / gap, 1.0 / kPower));
-  const double factor = std::exp2(std::round(std::clamp(steps, -3.0, 1.0)) / kSteps);
+  const double factor = std::exp2(std::round(std::clamp(steps, -2.0, 1.0)) / kSteps);
   return std::max(factor * deliverable.edge, kLeastEdge);
 }
 

@@ -78,7 +78,7 @@ OpenedSet openedSet(const TriangleTree& surface, double wall, const OpeningBall&
 
 double volumeInDoubt(const OpenedSet& set, const RegionParts& all) {
   const double fits = set.wall + 0.5 * set.ball.width;
-  RegionParts perhaps{all.edge, all.wall, {}};
+  RegionParts perhaps{all.edge, all.wall, {}, all.opposites};
   for (const RegionPart& part : all.parts) {
     const double half = 0.5 * std::sqrt(3.0) * all.edge * std::ldexp(1.0, part.level - 1);
     if (part.depth + half >= fits) perhaps.parts.push_back(part);

@@ -22,18 +22,19 @@ Moments cubeMoments(const Vec3& p, double edge, double volume) {
 }
 
 /// Of what is deeper in a part than the wall, and on the positive side of the other border.
-Moments partMoments(const RegionPart& part, double edge, double wall) {
+Moments partMoments(const RegionParts& region, const RegionPart& part, double edge) {
   const double whole = edge * edge * edge;
   const auto behind = [&](const Vec3& inwards, double depth) {
     const CubeCut cut = cubeCut(inwards, -depth / edge);
     if (cut.volume <= 0.0) return Moments(Moments::Zero());
     return cubeMoments(part.centre + edge * cut.centroid, edge, cut.volume * whole);
   };
-  const Moments own = behind(part.inwards, part.depth - wall);
-  if (!part.opposite) return own;
+  const Moments own = behind(part.inwards, part.depth - region.wall);
+  if (part.opposite < 0) return own;
   // Two half-spaces that face each other cover the cube where they meet in it.
-  const Moments both = own + behind(part.opposite->slope, part.opposite->value) -
-                       cubeMoments(part.centre, edge, whole);
+  const Sample& other = region.opposites[static_cast<std::size_t>(part.opposite)];
+  const Moments both =
+      own + behind(other.slope, other.value) - cubeMoments(part.centre, edge, whole);
   return both[0] > 0.0 ? both : Moments(Moments::Zero());
 }
 
@@ -93,7 +94,7 @@ private:
     const TriangleTree::Hit nearest = surface_.clearance(centre, onSurface);
     if (!(nearest.squaredDistance < far * far)) {
       known_.push_back({centre, far, true});
-      parts_.push_back({centre, far, Vec3::UnitX(), level, cell, {}});
+      parts_.push_back({centre, far, Vec3::UnitX(), level, cell});
       return;
     }
     ball.radius = std::sqrt(nearest.squaredDistance);
@@ -107,7 +108,7 @@ private:
     if (level == 0 || (ball.isInside && ball.radius >= wall_ + half)) {
       const double sign = ball.isInside ? 1.0 : -1.0;
       const Vec3 away = (centre - nearest.point) / std::max(ball.radius, 1e-300);
-      parts_.push_back({centre, sign * ball.radius, sign * away, level, cell, {}});
+      parts_.push_back({centre, sign * ball.radius, sign * away, level, cell});
       return;
     }
     if (level == 1) cell = borderCells_++;
@@ -215,7 +216,7 @@ AdmissibleCells cellsOf(const RegionParts& region) {
       }
       continue;
     }
-    const Moments left = partMoments(part, edge, region.wall);
+    const Moments left = partMoments(region, part, edge);
     if (left[0] <= 0.0) continue;
     if (part.cell != cell) result.emplace_back(Moments::Zero());
     cell = part.cell;

@@ -4,7 +4,6 @@
 #include "core/query/grid_function.h"
 #include "core/query/triangle_tree.h"
 
-#include <optional>
 #include <vector>
 
 namespace massprops {
@@ -23,13 +22,15 @@ struct RegionPart {
   /// cell.
   int level;
   int cell; ///< of level ≤ 0: number of the cell that it is part of; those of a cell follow on
-  /// Of level ≤ 0: how far the middle is from another border, whose slope is against `inwards`.
-  std::optional<Sample> opposite = {};
+  int opposite = -1; ///< number of another border, or −1
 };
 struct RegionParts {
   double edge = 0.0; ///< of a cell
   double wall = 0.0; ///< what may be hollow is deeper
   std::vector<RegionPart> parts;
+  /// Of parts of level ≤ 0: how far the middle is from another border, whose slope is against
+  /// theirs.
+  std::vector<Sample> opposites = {};
 };
 
 /// The cubes that `admissibleCells` are made of, see there.

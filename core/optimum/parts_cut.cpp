@@ -15,33 +15,59 @@ namespace {
 /// Takes off what lies on the negative side of something.
 class PartsCut {
 public:
-  PartsCut(const RegionParts& all, SideOfPart left, int finest)
-      : all_(all), left_(std::move(left)), finest_(finest) {}
+  PartsCut(const RegionParts& all, SideOfPart side, int finest)
+      : all_(all), side_(std::move(side)), finest_(finest) {}
 
   void add(const RegionPart& part, int number) {
     constexpr int kCells = 1 << 9; // of the largest cube
     cells_ = -2 - kCells * number; // unlike all others, whichever thread calculates them
-    add(part);
+    std::optional<Sample> opposite;
+    if (part.opposite >= 0) opposite = all_.opposites[static_cast<std::size_t>(part.opposite)];
+    add(part, opposite);
   }
 
-  std::vector<RegionPart> parts() && { return std::move(parts_); }
+  std::size_t parts() const { return left_.parts.size(); }
+  void addTo(RegionParts& result) const {
+    const auto known = static_cast<int>(result.opposites.size());
+    for (RegionPart part : left_.parts) {
+      if (part.opposite >= 0) part.opposite += known;
+      result.parts.push_back(part);
+    }
+    result.opposites.insert(result.opposites.end(), left_.opposites.begin(), left_.opposites.end());
+  }
 
 private:
-  void add(const RegionPart& part) {
+  void add(const RegionPart& part, const std::optional<Sample>& opposite) {
     const double size = all_.edge * std::ldexp(1.0, part.level - 1);
     const double half = 0.5 * std::sqrt(3.0) * size;
     const bool isBeyondItsPlane =
         part.level <= 0 && part.depth + halfAlong(part.inwards, part) <= all_.wall;
     if (isBeyondItsPlane) return;
-    const std::optional<Sample> left = left_(part, half);
-    if (!left || left->value <= -half) return;
-    if (leavesAll(*left, part)) {
-      parts_.push_back(part);
+    const std::optional<Sample> side = side_(part, half);
+    if (!side || side->value <= -half) return;
+    if (leavesAll(*side, part)) {
+      keep(part, opposite);
     } else if (part.level <= finest_) {
-      parts_.push_back(part);
-      cutOff(*left, parts_.back());
+      keepCut(part, opposite, *side);
     } else {
-      split(part, 0.25 * size);
+      split(part, opposite, 0.25 * size);
+    }
+  }
+
+  void keep(RegionPart part, const std::optional<Sample>& opposite) {
+    part.opposite = opposite ? static_cast<int>(left_.opposites.size()) : -1;
+    if (opposite) left_.opposites.push_back(*opposite);
+    left_.parts.push_back(part);
+  }
+
+  /// Of borders on the same side the nearer one counts.
+  void keepCut(RegionPart part, const std::optional<Sample>& opposite, const Sample& side) {
+    if (side.slope.dot(part.inwards) >= 0.0) {
+      part.depth = all_.wall + side.value;
+      part.inwards = side.slope;
+      keep(part, opposite);
+    } else {
+      keep(part, opposite && opposite->value < side.value ? opposite : side);
     }
   }
 
@@ -50,24 +76,14 @@ private:
     return 0.5 * all_.edge * std::ldexp(1.0, part.level - 1) * direction.cwiseAbs().sum();
   }
 
-  bool leavesAll(const Sample& left, const RegionPart& part) const {
-    if (left.value >= halfAlong(left.slope, part)) return true;
-    const bool isAlongOwn = left.slope.dot(part.inwards) >= 0.0;
-    return part.level <= 0 && isAlongOwn && left.value >= part.depth - all_.wall;
-  }
-
-  /// Of borders on the same side the nearer one counts.
-  void cutOff(const Sample& left, RegionPart& part) const {
-    if (left.slope.dot(part.inwards) >= 0.0) {
-      part.depth = all_.wall + left.value;
-      part.inwards = left.slope;
-    } else if (!part.opposite || left.value < part.opposite->value) {
-      part.opposite = left;
-    }
+  bool leavesAll(const Sample& side, const RegionPart& part) const {
+    if (side.value >= halfAlong(side.slope, part)) return true;
+    const bool isAlongOwn = side.slope.dot(part.inwards) >= 0.0;
+    return part.level <= 0 && isAlongOwn && side.value >= part.depth - all_.wall;
   }
 
   /// A cube of cells becomes smaller ones, a cell its parts, and these smaller ones.
-  void split(const RegionPart& part, double step) {
+  void split(const RegionPart& part, const std::optional<Sample>& opposite, double step) {
     for (int i = 0; i < 8; ++i) {
       RegionPart smaller = part;
       const Vec3 way = step * Vec3((i & 1) != 0 ? 1.0 : -1.0, (i & 2) != 0 ? 1.0 : -1.0,
@@ -78,18 +94,19 @@ private:
       smaller.depth = part.level > 0
                           ? std::max(part.depth - std::sqrt(3.0) * step, all_.wall + 2.0 * step)
                           : part.depth + part.inwards.dot(way);
-      if (smaller.opposite) smaller.opposite->value += smaller.opposite->slope.dot(way);
+      std::optional<Sample> moved = opposite;
+      if (moved) moved->value += moved->slope.dot(way);
       smaller.cell = part.level == 1 ? cells_ : part.cell;
-      add(smaller);
+      add(smaller, moved);
     }
     if (part.level == 1) --cells_;
   }
 
   const RegionParts& all_;
-  SideOfPart left_;
+  SideOfPart side_;
   int finest_;
-  std::vector<RegionPart> parts_;
-  int cells_ = 0; ///< the next of the numbers of cells that were whole
+  RegionParts left_; ///< edge and wall apart
+  int cells_ = 0;    ///< the next of the numbers of cells that were whole
 };
 
 /// How far parts are from a surface, beyond a depth.
@@ -142,16 +159,20 @@ RegionParts partsLeft(const RegionParts& all, const std::function<SideOfPart()>&
   RegionParts result{all.edge, all.wall, {}};
   constexpr Eigen::Index kRun = 512;
   const auto count = static_cast<Eigen::Index>(all.parts.size());
-  std::vector<std::vector<RegionPart>> chunks(static_cast<std::size_t>((count + kRun - 1) / kRun));
+  std::vector<std::optional<PartsCut>> chunks(static_cast<std::size_t>((count + kRun - 1) / kRun));
   forChunks(count, kRun, [&](const Chunk& chunk) {
-    PartsCut parts(all, makeSide(), finest);
+    PartsCut& parts =
+        chunks[static_cast<std::size_t>(chunk.number)].emplace(all, makeSide(), finest);
     for (Eigen::Index i = chunk.begin; i < chunk.end; ++i) {
       parts.add(all.parts[static_cast<std::size_t>(i)], static_cast<int>(i));
     }
-    chunks[static_cast<std::size_t>(chunk.number)] = std::move(parts).parts();
   });
-  for (const std::vector<RegionPart>& chunk : chunks) {
-    result.parts.insert(result.parts.end(), chunk.begin(), chunk.end());
+  std::size_t left = 0;
+  for (const std::optional<PartsCut>& chunk : chunks) left += chunk->parts();
+  result.parts.reserve(left);
+  for (std::optional<PartsCut>& chunk : chunks) {
+    chunk->addTo(result);
+    chunk.reset();
   }
   return result;
 }
