@@ -288,7 +288,7 @@ double edgeThatWillDo(const CavityTask& task, const OpenedSet& deliverable) {
   constexpr double kLarger = 2.0;
   constexpr double kWanted = 0.010; // before all is polished
   constexpr double kPower = 1.3;    // of the edge, that the gap goes with
-  constexpr double kUncut = 1.1;
+  constexpr double kUncut = 1.2;
   // Ceilings that shall carry themselves ask for more.
   if (deliverable.fill) return deliverable.edge;
   if (!isCut(task)) return kUncut * deliverable.edge;
