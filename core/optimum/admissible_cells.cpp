@@ -29,7 +29,7 @@ Moments partMoments(const RegionParts& region, const RegionPart& part, double ed
     if (cut.volume <= 0.0) return Moments(Moments::Zero());
     return cubeMoments(part.centre + edge * cut.centroid, edge, cut.volume * whole);
   };
-  const Moments own = behind(part.inwards, part.depth - region.wall);
+  Moments own = behind(part.inwards, part.depth - region.wall);
   if (part.opposite < 0) return own;
   // Two half-spaces that face each other cover the cube where they meet in it.
   const Sample& other = region.opposites[static_cast<std::size_t>(part.opposite)];
