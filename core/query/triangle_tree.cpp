@@ -17,11 +17,20 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Of what is kept out: none at all would be a crossing's.
 constexpr double kLeastClearance = 1e-12;
 
-/// Leaves of a tree over so many triangles: the least power of two that leaves four for each.
+/// Leaves of a tree over so many triangles, with at most four for each: roots · 4^k of them, with
+/// fifteen roots at most.
 Eigen::Index leafCount(Eigen::Index triangles) {
-  Eigen::Index leaves = 1;
-  while (4 * leaves < triangles) leaves *= 2;
-  return leaves;
+  constexpr Eigen::Index kMostRoots = 16;
+  Eigen::Index below = 1; // a root
+  while (4 * kMostRoots * below < triangles) below *= 4;
+  return std::max<Eigen::Index>(1, (triangles + 4 * below - 1) / (4 * below)) * below;
+}
+
+/// Leaves below each of as few roots as can be.
+Eigen::Index leavesOfRoot(Eigen::Index leaves) {
+  Eigen::Index below = 1;
+  while (leaves % (4 * below) == 0) below *= 4;
+  return below;
 }
 
 struct Centre {
@@ -48,7 +57,8 @@ void cut(std::vector<Centre>& centres, Eigen::Index first, Eigen::Index count,
   for (int k = 1; k < 3; ++k) {
     if (upper[k] - lower[k] > upper[axis] - lower[axis]) axis = k;
   }
-  const Eigen::Index half = count / 2;
+  const Eigen::Index ofRoot = leavesOfRoot(leaves);
+  const Eigen::Index half = count > ofRoot ? count / ofRoot / 2 * ofRoot : count / 2;
   std::nth_element(place(first), place(first + half), place(first + count),
                    [axis](const Centre& a, const Centre& b) {
                      return a.position[axis] < b.position[axis] ||
@@ -56,7 +66,7 @@ void cut(std::vector<Centre>& centres, Eigen::Index first, Eigen::Index count,
                    });
   constexpr Eigen::Index kWorthAThread = 4096;
   const auto left = [&] { cut(centres, first, half, leaves); };
-  const auto right = [&] { cut(centres, first + half, half, leaves); };
+  const auto right = [&] { cut(centres, first + half, count - half, leaves); };
   if (count == leaves && leaves >= kWorthAThread) {
     inParallel(left, right);
   } else {
@@ -135,8 +145,7 @@ void TriangleTree::makeBoxes(Queries queries) {
       if (queries == Queries::All) triangles_[static_cast<std::size_t>(leaf)] = trianglesOf(leaf);
     }
   });
-  roots_ = static_cast<int>(leaves_);
-  while (roots_ >= 4) roots_ /= 4;
+  roots_ = static_cast<int>(leaves_ / leavesOfRoot(leaves_));
   // All nodes above the leaves, roots·(1 + 4 + … + leaves/(4·roots)) of them.
   const auto nodesAbove = [&](Eigen::Index nodes) { return (nodes - roots_) / 3; };
   boxes_.resize(static_cast<std::size_t>(nodesAbove(leaves_)));
@@ -156,8 +165,11 @@ void TriangleTree::makeBoxes(Queries queries) {
     }
   }
   if (queries == Queries::All) makePlanes();
-  box_ = {level[0].lower.min(level[static_cast<std::size_t>(roots_ - 1)].lower),
-          level[0].upper.max(level[static_cast<std::size_t>(roots_ - 1)].upper)};
+  box_ = level[0];
+  for (int root = 1; root < roots_; ++root) {
+    const Box& box = level[static_cast<std::size_t>(root)];
+    box_ = {box_.lower.min(box.lower), box_.upper.max(box.upper)};
+  }
   constexpr float kUnits = 8.0F;
   rounding_ = kUnits * std::numeric_limits<float>::epsilon() *
               std::max(box_.lower.abs().maxCoeff(), box_.upper.abs().maxCoeff());
@@ -165,8 +177,9 @@ void TriangleTree::makeBoxes(Queries queries) {
 
 void TriangleTree::makePlanes() {
   // Of the last two levels.
-  const Eigen::Index last = leaves_ / 4;
-  const Eigen::Index before = leaves_ / 16;
+  const Eigen::Index ofRoot = leavesOfRoot(leaves_);
+  const Eigen::Index last = roots_ * (ofRoot / 4);
+  const Eigen::Index before = roots_ * (ofRoot / 16);
   firstPlanes_ = innerNodes() - last - before;
   planes_.resize(static_cast<std::size_t>(last + before));
   forChunks(last + before, kChunk, [&](const Chunk& chunk) {

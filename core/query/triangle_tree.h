@@ -10,12 +10,12 @@
 
 namespace massprops {
 
-/// The triangles' numbers in an order in which halves, quarters … of the list are halves, quarters
-/// … in space: cut at the median along the longest side of the box around their centres.
+/// The triangles' numbers in an order in which parts of the list are parts in space, down to the
+/// leaves of a tree: cut in two, and these again, along the longest side of the box around their
+/// centres.
 std::vector<int> spatialOrder(const Points& vertices, const Faces& faces);
 
-/// A complete binary tree over runs of two to four triangles. Refers to the arrays it was made
-/// from.
+/// Some complete trees over runs of up to four triangles. Refers to the arrays it was made from.
 class TriangleTree {
 public:
   enum class Order {
@@ -134,9 +134,9 @@ private:
   const Faces& faces_;
   std::vector<int> order_;     ///< empty: as given
   Vec3 centre_ = Vec3::Zero(); ///< that boxes and packets are relative to
-  Eigen::Index leaves_ = 1;    ///< a power of two
-  /// Walks begin at nodes 0 … roots − 1, so that they end at the leaves; the children of node i are
-  /// roots + 4i … roots + 4i + 3. Entry i holds their boxes.
+  Eigen::Index leaves_ = 1;    ///< roots · 4^k, so that the leaves are nearly full
+  /// Walks begin at nodes 0 … roots − 1; the children of node i are roots + 4i … roots + 4i + 3.
+  /// Entry i holds their boxes.
   int roots_ = 1;
   std::vector<BoxPacket> boxes_;
   std::vector<PlanePacket> planes_;       ///< of the lowest nodes that have boxes

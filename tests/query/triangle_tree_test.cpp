@@ -92,6 +92,30 @@ TEST(Clearance, IsThatOfTheSurfaceAndOfAllWithinARadiusOfWhatIsKeptOut) {
   EXPECT_LT(keptOut, 200);
 }
 
+TEST(TriangleTree, HasAllTrianglesHoweverManyThereAre) {
+  // From one leaf to several roots with levels below them.
+  const TriangleMesh mesh = blob(8);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> place(-1.5, 1.5);
+  for (const int count : {1,  2,  4,  5,   9,   13,  16,  17,  31,  33,  47,  60, 63,
+                          64, 65, 70, 100, 130, 190, 250, 257, 300, 380, 450, 511}) {
+    const Faces some = mesh.faces.topRows(count);
+    const TriangleTree tree(mesh.vertices, some);
+    std::vector<int> seen(static_cast<std::size_t>(count), 0);
+    for (int i = 0; i < count; ++i) ++seen[static_cast<std::size_t>(tree.faceAt(i))];
+    EXPECT_EQ(seen, std::vector<int>(static_cast<std::size_t>(count), 1)) << count;
+    int visited = 0;
+    tree.forOverlaps(tree.lower(), tree.upper(), 0, [&](Eigen::Index) { ++visited; });
+    EXPECT_EQ(visited, count);
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 p(place(random), place(random), place(random));
+      double least = std::numeric_limits<double>::infinity();
+      for (int f = 0; f < count; ++f) least = std::min(least, tree.squaredDistance(p, f));
+      EXPECT_EQ(tree.nearest(p).squaredDistance, least) << count;
+    }
+  }
+}
+
 /// How many triangles a search for those that meet each triangle's box looks at.
 std::int64_t visits(const TriangleMesh& mesh, TriangleTree::Order order) {
   const TriangleTree tree(mesh.vertices, mesh.faces, order, TriangleTree::Queries::NoDistances);
