@@ -6,21 +6,36 @@
 
 namespace massprops {
 
-VertexCorners vertexCorners(Eigen::Index vertexCount, const Faces& faces) {
+namespace {
+
+/// The corners that `isListed`.
+template <class Listed>
+VertexCorners listOfCorners(Eigen::Index vertexCount, const Faces& faces, const Listed& isListed) {
   VertexCorners result;
-  result.begin.assign(static_cast<std::size_t>(vertexCount) + 1, 0);
+  std::vector<int>& begin = result.begin;
+  begin.assign(static_cast<std::size_t>(vertexCount) + 1, 0);
   const int* corner = faces.data();
-  for (Eigen::Index i = 0; i < faces.size(); ++i) {
-    ++result.begin[static_cast<std::size_t>(corner[i]) + 1];
+  const auto count = static_cast<int>(faces.size());
+  for (int i = 0; i < count; ++i) {
+    if (isListed(i)) ++begin[static_cast<std::size_t>(corner[i]) + 1];
   }
-  for (std::size_t v = 1; v < result.begin.size(); ++v) result.begin[v] += result.begin[v - 1];
-  result.corners.resize(static_cast<std::size_t>(faces.size()));
-  std::vector<int> end(result.begin.begin(), result.begin.end() - 1);
-  for (Eigen::Index i = 0; i < faces.size(); ++i) {
-    int& at = end[static_cast<std::size_t>(corner[i])];
-    result.corners[static_cast<std::size_t>(at++)] = static_cast<int>(i);
+  for (std::size_t v = 1; v < begin.size(); ++v) begin[v] += begin[v - 1];
+  result.corners.resize(static_cast<std::size_t>(begin.back()));
+  for (int i = 0; i < count; ++i) {
+    if (!isListed(i)) continue;
+    int& at = begin[static_cast<std::size_t>(corner[i])];
+    result.corners[static_cast<std::size_t>(at++)] = i;
   }
+  // Each has become the next one's.
+  std::copy_backward(begin.begin(), begin.end() - 1, begin.end());
+  begin.front() = 0;
   return result;
+}
+
+} // namespace
+
+VertexCorners vertexCorners(Eigen::Index vertexCount, const Faces& faces) {
+  return listOfCorners(vertexCount, faces, [](int) { return true; });
 }
 
 std::vector<int> oppositeHalfEdges(const VertexCorners& corners, const Faces& faces) {
@@ -45,7 +60,12 @@ std::vector<int> oppositeHalfEdges(const VertexCorners& corners, const Faces& fa
 }
 
 std::vector<int> oppositeHalfEdges(Eigen::Index vertexCount, const Faces& faces) {
-  return oppositeHalfEdges(vertexCorners(vertexCount, faces), faces);
+  // Only those to smaller indices are looked for.
+  const int* corner = faces.data();
+  return oppositeHalfEdges(
+      listOfCorners(vertexCount, faces,
+                    [corner](int h) { return corner[h] > corner[nextHalfEdge(h)]; }),
+      faces);
 }
 
 EdgeCounts countEdges(Eigen::Index vertexCount, const Faces& faces) {

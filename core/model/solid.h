@@ -8,6 +8,8 @@
 
 namespace massprops {
 
+class TriangleTree;
+
 /// A surface that bounds no solid; mending.h may make it do so.
 class DefectiveSurface : public InvalidInput {
 public:
@@ -38,9 +40,10 @@ public:
   const std::vector<int>& spatialFaceOrder() const { return spatialFaceOrder_; }
 
 private:
-  friend Solid makeSolid(const TriangleMesh& input, bool closeOpenings, const Mat3& rotation,
+  friend Solid makeSolid(TriangleMesh input, bool closeOpenings, const Mat3& rotation,
                          const Repairs& before);
   friend void requireNoCrossings(const Solid& solid);
+  friend void requireNoCrossings(const Solid& solid, const TriangleTree& posed, double apart);
   friend Solid withoutCrossings(Solid solid);
   TriangleMesh mesh_;
   TriangleMesh cavities_;
@@ -58,13 +61,16 @@ private:
 /// `before`: what was mended already.
 /// \throw DefectiveSurface with the number of defects and the MeshLab filter that mends them;
 /// InvalidInput where there is no surface
-Solid makeSolid(const TriangleMesh& input, bool closeOpenings = false,
+Solid makeSolid(TriangleMesh input, bool closeOpenings = false,
                 const Mat3& rotation = Mat3::Identity(), const Repairs& before = {});
 
 /// Looks for crossings where `makeSolid` has not: of a single closed surface, for that is most of
 /// the work and may be done beside the first stages that use the solid.
 /// \throw DefectiveSurface as `makeSolid` does
 void requireNoCrossings(const Solid& solid);
+/// The same with a tree over the solid's faces, in their spatial order, in another frame, where
+/// the two places of one point are at most `apart` apart.
+void requireNoCrossings(const Solid& solid, const TriangleTree& posed, double apart);
 
 /// The same, for which `requireNoCrossings` has nothing left to do. \throw DefectiveSurface
 Solid withoutCrossings(Solid solid);

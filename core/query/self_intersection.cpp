@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -24,6 +25,8 @@ constexpr Eigen::Index kBlock = 32;
 /// Around a block, in edges: neighbours whose boxes meet those of the block belong to its patch,
 /// too, and need not be compared.
 constexpr double kMargin = 0.25;
+/// Of one block.
+constexpr int kMostPatches = 4;
 /// Each has an array over all faces, so that there are to be few.
 constexpr Eigen::Index kMostChunks = 16;
 /// Share of the product of two lengths: far above the rounding of a determinant.
@@ -37,14 +40,17 @@ struct Normal {
 /// Looks for crossings of one surface with itself.
 class SelfIntersections {
 public:
-  explicit SelfIntersections(const TriangleTree& surface)
-      : x_(surface.vertices()), faces_(surface.faces()), tree_(surface),
-        corners_(vertexCorners(x_.rows(), faces_)), opposite_(oppositeHalfEdges(corners_, faces_)),
+  /// \param similar null, or what the tree's surface is to this one
+  SelfIntersections(const Points& vertices, const Faces& faces, const TriangleTree& tree,
+                    const SimilarSurface* similar)
+      : x_(vertices), faces_(faces), tree_(tree), similar_(similar),
+        opposite_(oppositeHalfEdges(x_.rows(), faces_)),
         isEmbedded_(static_cast<std::size_t>(x_.rows())),
-        size_((surface.upper() - surface.lower()).maxCoeff()) {}
-
-  std::vector<int> find() {
+        size_((x_.colwise().maxCoeff() - x_.colwise().minCoeff()).maxCoeff()) {
     findEmbeddedFans();
+  }
+
+  std::vector<int> find() const {
     const Eigen::Index blocks = chunkCount(faces_.rows(), kBlock);
     const Eigen::Index length = std::max<Eigen::Index>(16, chunkCount(blocks, kMostChunks));
     std::vector<std::vector<int>> found(static_cast<std::size_t>(chunkCount(blocks, length)));
@@ -66,11 +72,24 @@ private:
   /// For every face the number of the patch around the present block that it belongs to; numbers
   /// of former blocks are smaller than `first`.
   struct Patches {
-    std::vector<int> of;
-    int first = 1;
-    int next = 1;
+    std::vector<std::uint16_t> of;
+    std::uint16_t first = 1;
+    std::uint16_t next = 1;
     std::vector<int> queue, doubtful;
+
+    void beginBlock() {
+      if (next > std::numeric_limits<std::uint16_t>::max() - kMostPatches) {
+        std::fill(of.begin(), of.end(), std::uint16_t{0});
+        next = 1;
+      }
+      first = next;
+    }
   };
+
+  int faceAt(Eigen::Index place) const {
+    const int f = tree_.faceAt(place);
+    return similar_ == nullptr ? f : similar_->faceOf[at(f)];
+  }
 
   static std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
   Vec3 point(int v) const { return x_.row(v).transpose(); }
@@ -97,38 +116,57 @@ private:
   /// A vertex's fan is embedded when all its triangles face one direction and go round it once,
   /// seen from there.
   void findEmbeddedFans() {
+    // A corner of each vertex, and how many there are: those of two fans that meet in it do not
+    // form one.
+    constexpr std::uint8_t kMany = std::numeric_limits<std::uint8_t>::max();
+    std::vector<int> cornerOf(isEmbedded_.size(), -1);
+    std::vector<std::uint8_t> count(isEmbedded_.size(), 0);
+    for (int corner = 0; corner < static_cast<int>(faces_.size()); ++corner) {
+      const std::size_t v = at(faces_.data()[corner]);
+      cornerOf[v] = corner;
+      if (count[v] < kMany) ++count[v];
+    }
     constexpr Eigen::Index kChunk = 4096;
     forChunks(x_.rows(), kChunk, [&](const Chunk& chunk) {
-      std::vector<Normal> normals;
+      std::vector<int> fan;
       for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
-        normals.clear();
-        Vec3 axis = Vec3::Zero();
-        for (const int corner : corners_.at(v)) {
-          normals.push_back(normal(corner / 3));
-          const double length = normals.back().vector.norm();
-          if (length > 0.0) axis += normals.back().vector / length;
+        const std::size_t corners = count[at(v)];
+        fan.clear();
+        int corner = cornerOf[at(v)];
+        while (corner >= 0 && fan.size() < corners && (fan.empty() || corner != fan.front())) {
+          fan.push_back(corner);
+          corner = opposite_[at(previousHalfEdge(corner))];
         }
-        axis.normalize();
-        isEmbedded_[at(v)] = 0;
-        if (!std::all_of(normals.begin(), normals.end(),
-                         [&](const Normal& n) { return facesTowards(n, axis); })) {
-          continue;
-        }
-        // In projection every triangle turns to the left by less than half a turn: the link passes
-        // from below to above a line through the vertex, on its right, once a turn.
-        const Vec3 across = axis.unitOrthogonal();
-        int turns = 0;
-        bool isClosed = true;
-        for (const int corner : corners_.at(v)) {
-          isClosed = isClosed && opposite_[at(corner)] >= 0;
-          const Vec3 from = point(faces_.data()[nextHalfEdge(corner)]) - point(static_cast<int>(v));
-          const Vec3 to =
-              point(faces_.data()[previousHalfEdge(corner)]) - point(static_cast<int>(v));
-          if (from.dot(across) < 0.0 && to.dot(across) >= 0.0) ++turns;
-        }
-        isEmbedded_[at(v)] = isClosed && turns == 1 ? 1 : 0;
+        const bool isAll =
+            corners < kMany && fan.size() == corners && !fan.empty() && corner == fan.front();
+        isEmbedded_[at(v)] = isAll && isEmbedded(static_cast<int>(v), fan) ? 1 : 0;
       }
     });
+  }
+
+  /// \param fan all corners of the vertex, closed
+  bool isEmbedded(int v, const std::vector<int>& fan) const {
+    Vec3 axis = Vec3::Zero();
+    for (const int corner : fan) {
+      const Vec3 n = normal(corner / 3).vector;
+      const double length = n.norm();
+      if (length > 0.0) axis += n / length;
+    }
+    axis.normalize();
+    if (!std::all_of(fan.begin(), fan.end(),
+                     [&](int corner) { return facesTowards(normal(corner / 3), axis); })) {
+      return false;
+    }
+    // In projection every triangle turns to the left by less than half a turn: the link passes
+    // from below to above a line through the vertex, on its right, once a turn.
+    const Vec3 across = axis.unitOrthogonal();
+    int turns = 0;
+    for (const int corner : fan) {
+      const Vec3 from = point(faces_.data()[nextHalfEdge(corner)]) - point(v);
+      const Vec3 to = point(faces_.data()[previousHalfEdge(corner)]) - point(v);
+      if (from.dot(across) < 0.0 && to.dot(across) >= 0.0) ++turns;
+    }
+    return turns == 1;
   }
 
   /// A rectangle across `axis`, a little larger and a little smaller than it is.
@@ -180,7 +218,7 @@ private:
     // Faces that may be connected, too, must face the axis but count as strangers.
     isPatch = isPatch && growPerhaps(window, patches);
     for (std::size_t i = isPatch ? sure : 0; i < patches.queue.size(); ++i) {
-      patches.of[at(patches.queue[i])] = -1;
+      patches.of[at(patches.queue[i])] = 0;
     }
     return isPatch;
   }
@@ -243,7 +281,7 @@ private:
     block.begin = number * kBlock;
     block.end = std::min(faces_.rows(), block.begin + kBlock);
     for (Eigen::Index i = block.begin; i < block.end; ++i) {
-      const int f = tree_.faceAt(i);
+      const int f = faceAt(i);
       const Normal n = normal(f);
       const double length = n.vector.norm();
       if (length > 0.0) block.axis += n.vector / length;
@@ -255,6 +293,18 @@ private:
     return block;
   }
 
+  /// What may cross the block has a box in the tree that meets this one.
+  Box boxInTree(const Block& block) const {
+    if (similar_ == nullptr) return block.all;
+    Box box;
+    for (Eigen::Index i = block.begin; i < block.end; ++i) {
+      for (const int v : tree_.faces().row(tree_.faceAt(i)))
+        box.extend(Vec3(tree_.vertices().row(v).transpose()));
+    }
+    const Vec3 apart = Vec3::Constant(similar_->apart);
+    return {box.min() - apart, box.max() + apart};
+  }
+
   Window windowOver(const Block& block) const {
     Window window;
     window.axis = block.axis.normalized();
@@ -264,7 +314,7 @@ private:
     window.lower.setConstant(std::numeric_limits<double>::infinity());
     window.upper = -window.lower;
     for (Eigen::Index i = block.begin; i < block.end; ++i) {
-      for (const Vec2& p : shadowOf(tree_.faceAt(i), window)) {
+      for (const Vec2& p : shadowOf(faceAt(i), window)) {
         window.lower = window.lower.cwiseMin(p);
         window.upper = window.upper.cwiseMax(p);
       }
@@ -277,14 +327,13 @@ private:
 
   void searchBlock(Eigen::Index number, Patches& patches, std::vector<int>& found) const {
     const Block block = blockAt(number);
-    patches.first = patches.next;
+    patches.beginBlock();
     constexpr double kOneSided = 0.5;
     if (block.axis.norm() > kOneSided) {
       const Window window = windowOver(block);
-      constexpr int kMostPatches = 4;
       for (Eigen::Index i = block.begin;
            i < block.end && patches.next < patches.first + kMostPatches; ++i) {
-        const int f = tree_.faceAt(i);
+        const int f = faceAt(i);
         if (patches.of[at(f)] >= patches.first) continue;
         if (!growPatch(f, window, patches)) break;
         ++patches.next;
@@ -295,23 +344,24 @@ private:
 
   /// Pairs that no patch has in common. Most often one patch has the whole block.
   void comparePairs(const Block& block, const Patches& patches, std::vector<int>& found) const {
-    const int common = patches.of[at(tree_.faceAt(block.begin))];
+    const std::uint16_t common = patches.of[at(faceAt(block.begin))];
     bool isOnePatch = common >= patches.first;
-    int patchOf[kBlock];
+    std::uint16_t patchOf[kBlock];
     for (Eigen::Index i = block.begin; i < block.end; ++i) {
-      patchOf[i - block.begin] = patches.of[at(tree_.faceAt(i))];
+      patchOf[i - block.begin] = patches.of[at(faceAt(i))];
       isOnePatch = isOnePatch && patchOf[i - block.begin] == common;
     }
-    tree_.forOverlaps(block.all.min(), block.all.max(), block.begin, [&](Eigen::Index i) {
-      const int f = tree_.faceAt(i);
-      const int patch = patches.of[at(f)];
+    const Box around = boxInTree(block);
+    tree_.forOverlaps(around.min(), around.max(), block.begin, [&](Eigen::Index i) {
+      const int f = faceAt(i);
+      const std::uint16_t patch = patches.of[at(f)];
       const bool isKnown = patch >= patches.first;
       if (isOnePatch && patch == common) return;
       const Box box = boxOf(f);
       if (!box.intersects(block.all)) return;
       for (Eigen::Index j = 0; j < std::min(block.end, i) - block.begin; ++j) {
         if (!box.intersects(block.boxes[j]) || (isKnown && patchOf[j] == patch)) continue;
-        const int g = tree_.faceAt(block.begin + j);
+        const int g = faceAt(block.begin + j);
         if (cross(f, g)) {
           found.push_back(f);
           found.push_back(g);
@@ -385,7 +435,7 @@ private:
   const Points& x_;
   const Faces& faces_;
   const TriangleTree& tree_;
-  VertexCorners corners_;
+  const SimilarSurface* similar_;
   std::vector<int> opposite_;
   std::vector<char> isEmbedded_;
   double size_; ///< of the surface's box
@@ -400,7 +450,12 @@ std::vector<int> selfIntersectingFaces(const Points& vertices, const Faces& face
 }
 
 std::vector<int> selfIntersectingFaces(const TriangleTree& surface) {
-  return SelfIntersections(surface).find();
+  return SelfIntersections(surface.vertices(), surface.faces(), surface, nullptr).find();
+}
+
+std::vector<int> selfIntersectingFaces(const Points& vertices, const Faces& faces,
+                                       const TriangleTree& tree, const SimilarSurface& similar) {
+  return SelfIntersections(vertices, faces, tree, &similar).find();
 }
 
 } // namespace massprops

@@ -20,4 +20,13 @@ std::vector<int> selfIntersectingFaces(const Points& vertices, const Faces& face
 /// The same where there is a tree already.
 std::vector<int> selfIntersectingFaces(const TriangleTree& surface);
 
+/// The same surface elsewhere, turned and scaled.
+struct SimilarSurface {
+  const std::vector<int>& faceOf; ///< for each of its faces the one here
+  double apart; ///< not less than, there, the distance of two points that are one here
+};
+/// The same with the tree of a similar surface.
+std::vector<int> selfIntersectingFaces(const Points& vertices, const Faces& faces,
+                                       const TriangleTree& tree, const SimilarSurface& similar);
+
 } // namespace massprops

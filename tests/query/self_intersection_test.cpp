@@ -5,6 +5,8 @@
 #include "judge/checks.h"
 #include "shapes.h"
 
+#include <Eigen/Geometry>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -53,6 +55,48 @@ TEST(SelfIntersectingFaces, AreThoseThatAllPairsHaveAlsoOnWrinkledSurfaces) {
   }
   EXPECT_GT(crossingOnes, 4);
   EXPECT_LT(crossingOnes, 20);
+}
+
+TEST(SelfIntersectingFaces, AreTheSameWithTheTreeOfASimilarSurface) {
+  // Turned, scaled, rounded coarsely and in another order: what crosses by less than was rounded
+  // lies apart there.
+  const TriangleMesh two =
+      joined(blob(10), transformed(blob(10), Mat3::Identity(), {1.98, 0.1, 0.2}));
+  const std::vector<int> expected = selfIntersectingFaces(two.vertices, two.faces);
+  EXPECT_GT(expected.size(), 8U);
+  const Mat3 turn = Eigen::AngleAxisd(1.0, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  const std::vector<int> order = spatialOrder(two.vertices, two.faces);
+  TriangleMesh other = transformed(two, 0.1 * turn, {3, 4, 5});
+  constexpr double kGrid = 0.01;
+  other.vertices = (other.vertices / kGrid).array().round() * kGrid;
+  for (Eigen::Index f = 0; f < other.faces.rows(); ++f)
+    other.faces.row(f) = two.faces.row(order[static_cast<std::size_t>(f)]);
+  const TriangleTree tree(other.vertices, other.faces, TriangleTree::Order::Spatial);
+  EXPECT_EQ(selfIntersectingFaces(two.vertices, two.faces, tree, {order, std::sqrt(3.0) * kGrid}),
+            expected);
+  EXPECT_NE(selfIntersectingFaces(two.vertices, two.faces, tree, {order, -kGrid}), expected)
+      << "or it would not matter how far they are apart";
+}
+
+TEST(SelfIntersectingFaces, AreFoundAtVerticesWhereTwoFansMeet) {
+  // Cones that share their tip: apart, and one turned into the other.
+  for (const double lean : {0.0, 2.6}) {
+    TriangleMesh mesh;
+    constexpr int kSides = 8;
+    mesh.vertices = Points::Zero(1 + 2 * kSides, 3);
+    mesh.faces.resize(2 * kSides, 3);
+    const Mat3 turn = Eigen::AngleAxisd(lean, Vec3::UnitX()).toRotationMatrix();
+    for (int i = 0; i < kSides; ++i) {
+      const double angle = 2.0 * kPi * i / kSides;
+      const Vec3 rim(0.5 * std::cos(angle), 0.5 * std::sin(angle), 1.0);
+      mesh.vertices.row(1 + i) = rim.transpose();
+      mesh.vertices.row(1 + kSides + i) = -(turn * rim).transpose();
+      mesh.faces.row(i) << 0, 1 + i, 1 + (i + 1) % kSides;
+      mesh.faces.row(kSides + i) << 0, 1 + kSides + i, 1 + kSides + (i + 1) % kSides;
+    }
+    EXPECT_EQ(selfIntersectingFaces(mesh.vertices, mesh.faces).empty(), lean == 0.0);
+    EXPECT_EQ(intersectingPairs(mesh) == 0, lean == 0.0);
+  }
 }
 
 TEST(SelfIntersectingFaces, AreFoundWhereDistantPartsMeet) {
