@@ -5,23 +5,27 @@
 #include "core/pipeline_stages.h"
 #include "core/print/whole_file.h"
 
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace massprops {
 namespace {
 
+/// Empty: another depth of the foot serves better, which is known from then on.
 /// \throw DefectiveSurface when the model is no solid
-Result hollowed(const TriangleMesh& model, const Known& known, const Options& options,
-                ProgressBar& bar) {
+std::optional<Result> hollowedOnFoot(const TriangleMesh& model, Known& known,
+                                     const Options& options, ProgressBar& bar) {
   // A solid that stands upright on its contact area, diagonal 1, and what it is to do.
   const Preparation prepared = prepare(model, options, bar, Resolution::Coarse, known);
   // What moves inwards, its skeleton and harmonics; the best that any cavity could do.
   const Foundation foundation = coarsen(prepared, options, bar);
   // The foot was cut as little as it takes to stand at all: deeper, where that lets a cavity reach
   // the goal.
-  if (const auto depth = depthOfBetterFoot(prepared, foundation, options)) {
-    return hollowed(model, {known.mended, depth}, options, bar);
+  if (!known.footDepth) {
+    known.footDepth = depthOfBetterFoot(prepared, foundation, options);
+    if (known.footDepth) return std::nullopt;
   }
   // Offsets that serve the goal best, within bounds that close in until nothing crosses; where they
   // fall short, what lies behind the walls on one side of the best quadric.
@@ -32,6 +36,13 @@ Result hollowed(const TriangleMesh& model, const Known& known, const Options& op
   if (options.showAnswer) draw(prepared, foundation, found, options, bar, result);
   if (!options.printFile.empty()) print(prepared, found, options, bar, result);
   return result;
+}
+
+/// \throw DefectiveSurface when the model is no solid
+Result hollowed(const TriangleMesh& model, Known known, const Options& options, ProgressBar& bar) {
+  std::optional<Result> result = hollowedOnFoot(model, known, options, bar);
+  if (!result) result = hollowedOnFoot(model, known, options, bar);
+  return *std::move(result);
 }
 
 /// A model that is no solid is mended first.

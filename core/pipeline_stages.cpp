@@ -50,6 +50,11 @@ PosedModel pose(const Footing& footing, const Options& options) {
   return result;
 }
 
+/// Crossings that nobody has looked for yet.
+void requireNoCrossings(const Preparation& model) {
+  requireNoCrossings(model.solid, model.surface, roundOff(model.posed.frame));
+}
+
 /// The outer surface, and how far from these triangles the body stays solid.
 TriangleTree surfaceOf(const PosedModel& posed, const TriangleTree* keptSolid,
                        const Options& options) {
@@ -575,7 +580,7 @@ Foundation coarsen(const Preparation& model, const Options& options, ProgressBar
   Foundation result;
   const auto checkCrossings = [&] {
     const Stopwatch time;
-    requireNoCrossings(model.solid);
+    requireNoCrossings(model);
     result.secondsCrossings = time.seconds();
   };
   const auto findBound = [&] {
@@ -609,7 +614,7 @@ Foundation coarsen(const Preparation& model, const Options& options, ProgressBar
     throw;
   } catch (const std::exception&) {
     // A stage that fails may do so for crossings that nobody has looked for yet.
-    requireNoCrossings(model.solid);
+    requireNoCrossings(model);
     throw;
   }
   return result;

@@ -26,7 +26,7 @@ std::optional<PlaneCut> cutNear(const TriangleMesh& mesh, double size) {
   constexpr double kSteps[] = {0.0, 1e-6, 1e-5, 1e-4, 1e-3};
   for (const double step : kSteps) {
     const double level = levelOff(mesh.vertices.col(2), step * size, kApart * size);
-    std::optional<PlaneCut> cut = cutAbove(mesh, level, 0.0, asTheyAre);
+    std::optional<PlaneCut> cut = cutAbove(mesh.vertices, mesh.faces, level, 0.0, asTheyAre);
     if (cut) return cut;
   }
   return std::nullopt;

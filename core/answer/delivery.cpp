@@ -25,6 +25,12 @@ bool inputServes(const Solid& solid, const PosedModel& posed, const CavityTask& 
          repairs.flippedComponents == 0 && repairs.mended.empty();
 }
 
+/// \param vertices of the solid, moved or not
+TriangleMesh skinOf(const Solid& solid, Points vertices) {
+  if (solid.isLid().empty()) return {std::move(vertices), solid.faces()};
+  return submesh(vertices, solid.skin()).mesh;
+}
+
 void deliverOffsetSurface(const Solid& solid, const PosedModel& posed, const CavityTask& task,
                           const CavityResult& cavity, const std::vector<int>& vertexOf,
                           const std::function<Points(const Points&)>& representable,
@@ -57,7 +63,7 @@ Delivery deliver(const Solid& solid, const PosedModel& posed, const CavityTask& 
   if (cavity.status != CavityStatus::Found) {
     // What stands is the body with its foot, hollow or not.
     if (posed.foot) {
-      result.outer = assembled({submesh(solid.vertices(), solid.skin()).mesh, solid.cavities()});
+      result.outer = assembled({skinOf(solid, solid.vertices()), solid.cavities()});
     }
     return result;
   }
@@ -71,10 +77,10 @@ Delivery deliver(const Solid& solid, const PosedModel& posed, const CavityTask& 
   }
   flip(result.inner.faces);
   if (inputServes(solid, posed, task)) return result;
-  const Points outer =
-      task.model.outer ? representable(toModel(posed.frame, placed(cavity.outer, posed.vertexOf)))
-                       : solid.vertices();
-  result.outer = submesh(outer, solid.skin()).mesh;
+  result.outer =
+      skinOf(solid, task.model.outer
+                        ? representable(toModel(posed.frame, placed(cavity.outer, posed.vertexOf)))
+                        : solid.vertices());
   return result;
 }
 

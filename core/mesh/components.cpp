@@ -37,8 +37,11 @@ Components connectedComponents(Eigen::Index vertexCount, const Faces& faces) {
     if (sizes.size() <= of(f)) sizes.resize(of(f) + 1, 0);
     ++sizes[of(f)];
   }
-  if (sizes.size() == 1) return {faces};
   Components result;
+  if (sizes.size() == 1) {
+    result.push_back(faces);
+    return result;
+  }
   for (Eigen::Index& size : sizes) {
     result.emplace_back(size, 3);
     size = 0;

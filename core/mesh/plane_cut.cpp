@@ -44,21 +44,32 @@ double roundness(const Vec3& a, const Vec3& b, const Vec3& c) {
 /// The surface above the plane with the holes that the cut leaves.
 class Opened {
 public:
-  Opened(const TriangleMesh& surface, double level) : given_(surface), level_(level) {
-    for (Eigen::Index v = 0; v < given_.vertices.rows(); ++v) {
-      points_.emplace_back(given_.vertices.row(v).transpose());
+  Opened(const Points& vertices, const Faces& faces, double level)
+      : given_(vertices.rows()), level_(level) {
+    // Large ones are not to be copied again and again.
+    Eigen::Index kept = 0;
+    Eigen::Index clipped = 0;
+    const auto isHigh = [&](int v) { return vertices(v, 2) > level ? 1 : 0; };
+    for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+      const int above = isHigh(faces(f, 0)) + isHigh(faces(f, 1)) + isHigh(faces(f, 2));
+      ++(above == 3 ? kept : clipped);
+      if (above == 0) --clipped;
     }
-    for (Eigen::Index f = 0; f < given_.faces.rows(); ++f) cut(static_cast<int>(f));
+    kept_.reserve(at(kept));
+    points_.reserve(at(given_ + 2 * clipped)); // two of each, if it had no neighbours
+    for (Eigen::Index v = 0; v < given_; ++v) points_.emplace_back(vertices.row(v).transpose());
+    for (Eigen::Index f = 0; f < faces.rows(); ++f) cut(faces.row(f), static_cast<int>(f));
   }
 
   /// Rounds the cut's points.
   void round(const std::function<Points(const Points&)>& representable) {
-    const Eigen::Index first = given_.vertices.rows();
-    Points cuts(static_cast<Eigen::Index>(points_.size()) - first, 3);
+    Points cuts(static_cast<Eigen::Index>(points_.size()) - given_, 3);
     if (cuts.rows() == 0) return;
-    for (Eigen::Index i = 0; i < cuts.rows(); ++i) cuts.row(i) = points_[at(first + i)].transpose();
+    for (Eigen::Index i = 0; i < cuts.rows(); ++i)
+      cuts.row(i) = points_[at(given_ + i)].transpose();
     cuts = representable(cuts);
-    for (Eigen::Index i = 0; i < cuts.rows(); ++i) points_[at(first + i)] = cuts.row(i).transpose();
+    for (Eigen::Index i = 0; i < cuts.rows(); ++i)
+      points_[at(given_ + i)] = cuts.row(i).transpose();
   }
 
   /// Makes corners one that an edge shorter than `distance` joins, one of them cut.
@@ -136,14 +147,16 @@ public:
 
   std::vector<Vec3>& points() { return points_; }
 
-  /// With triangles that close it.
-  TriangleMesh closedBy(const std::vector<Eigen::RowVector3i>& caps) const {
+  /// With triangles that close it; nothing is left here.
+  TriangleMesh closedBy(const std::vector<Eigen::RowVector3i>& caps) {
     Points vertices(static_cast<Eigen::Index>(points_.size()), 3);
     for (Eigen::Index v = 0; v < vertices.rows(); ++v) vertices.row(v) = points_[at(v)].transpose();
+    points_ = {};
     Faces faces(static_cast<Eigen::Index>(kept_.size() + clipped_.size() + caps.size()), 3);
     Eigen::Index row = 0;
-    for (const auto* parts : {&kept_, &clipped_}) {
+    for (auto* parts : {&kept_, &clipped_}) {
       for (const Part& part : *parts) faces.row(row++) = part.corners;
+      *parts = {};
     }
     for (const Eigen::RowVector3i& face : caps) faces.row(row++) = face;
     return submesh(vertices, faces).mesh;
@@ -168,7 +181,7 @@ private:
   };
 
   bool isAbove(int v) const { return points_[at(v)].z() > level_; }
-  bool isCut(int v) const { return v >= given_.vertices.rows(); }
+  bool isCut(int v) const { return v >= given_; }
 
   /// The same for both faces of the edge.
   int cutPoint(int a, int b) {
@@ -184,8 +197,7 @@ private:
     return known->second;
   }
 
-  void cut(int f) {
-    const Eigen::RowVector3i face = given_.faces.row(f);
+  void cut(const Eigen::RowVector3i& face, int f) {
     const int above = int(isAbove(face[0])) + int(isAbove(face[1])) + int(isAbove(face[2]));
     if (above == 3) kept_.push_back({face, f});
     if (above == 0 || above == 3) return;
@@ -217,7 +229,7 @@ private:
     }
   }
 
-  const TriangleMesh& given_;
+  Eigen::Index given_; ///< number of vertices
   double level_;
   std::vector<Vec3> points_; ///< the given vertices, then those of the cut
   std::map<std::pair<int, int>, int> cutOf_;
@@ -319,6 +331,7 @@ std::vector<Eigen::RowVector3i> capsOf(const std::vector<Loop>& loops, double le
       rounded.row(static_cast<Eigen::Index>(i)) << inner[i].transpose(), level;
     }
     if (!inner.empty()) rounded = representable(rounded);
+    points.reserve(points.size() + inner.size());
     for (Eigen::Index i = 0; i < rounded.rows(); ++i) {
       points.emplace_back(rounded.row(i).transpose());
       insert(static_cast<int>(points.size()) - 1);
@@ -336,9 +349,10 @@ std::vector<Eigen::RowVector3i> capsOf(const std::vector<Loop>& loops, double le
 
 } // namespace
 
-std::optional<PlaneCut> cutAbove(const TriangleMesh& surface, double level, double merged,
+std::optional<PlaneCut> cutAbove(const Points& vertices, const Faces& faces, double level,
+                                 double merged,
                                  const std::function<Points(const Points&)>& representable) {
-  Opened opened(surface, level);
+  Opened opened(vertices, faces, level);
   opened.round(representable);
   if (merged > 0.0) opened.merge(merged);
   const std::vector<Loop> loops = opened.loops();

@@ -24,7 +24,8 @@ struct PlaneCut {
 /// to what the caller can store. Empty where rounding makes polygons cross or corners meet; a
 /// finished mesh may still cross itself. \pre coherently oriented 2-manifolds, borders and all
 /// vertices off the plane, the former above it
-std::optional<PlaneCut> cutAbove(const TriangleMesh& surface, double level, double merged,
+std::optional<PlaneCut> cutAbove(const Points& vertices, const Faces& faces, double level,
+                                 double merged,
                                  const std::function<Points(const Points&)>& representable);
 
 } // namespace massprops

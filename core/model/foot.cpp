@@ -120,19 +120,21 @@ std::optional<Footing> cutBy(double depth, double merged, const Solid& solid,
     if (!options.representable) return points;
     return Points(options.representable(points * upright.rotation) * upright.rotation.transpose());
   };
-  const std::optional<PlaneCut> cut =
-      cutAbove({upright.vertices, solid.skin()}, upright.ground + depth, merged, rounded);
+  std::optional<PlaneCut> cut =
+      cutAbove(upright.vertices, solid.skin(), upright.ground + depth, merged, rounded);
   if (!cut) return std::nullopt;
-  const TriangleMesh rest{cut->mesh.vertices * upright.rotation, cut->mesh.faces};
+  // A large model's copies are not to pile up.
+  TriangleMesh rest = std::move(cut->mesh);
+  rest.vertices = rest.vertices * upright.rotation;
   const Uncut uncut = uncutCavities(solid, upright, upright.ground + depth);
+  if (uncut.cavities.faces.rows() > 0) rest = assembled({rest, uncut.cavities});
   Repairs before = solid.repairs();
   before.replacedCavities = uncut.opened; // to which the others are added
   try {
-    Footing result{makeSolid(assembled({rest, uncut.cavities}), !solid.isLid().empty(),
-                             upright.rotation, before),
+    Footing result{withoutCrossings(makeSolid(std::move(rest), !solid.isLid().empty(),
+                                              upright.rotation, before)),
                    Foot{depth, cut->spread},
                    {}};
-    requireNoCrossings(result.solid);
     if (fallsApart(piecesOf(solid), piecesOf(result.solid))) return std::nullopt;
     const GroundContact contact = groundContact(
         result.solid.vertices() * upright.rotation.transpose(), {}, result.foot->spread);
@@ -252,13 +254,13 @@ Footing onFoot(Solid solid, const Options& options, const std::optional<double>&
   if (!mayHaveFoot(options)) return {std::move(solid), {}, {}};
   const Upright upright(solid, options);
   if (options.foot == FootCut::Given) {
-    requireNoCrossings(solid);
+    solid = withoutCrossings(std::move(solid));
     return onGivenFoot(solid, upright, options);
   }
   const double radius = kFootInradius * solid.diagonal();
   const ContactArea contacts = groundContact(upright.vertices, {}).area;
   if (holdsCircle(contacts, radius)) return {std::move(solid), {}, {}};
-  requireNoCrossings(solid);
+  solid = withoutCrossings(std::move(solid));
   const double most = std::min(kDeepest * upright.height, roomBelow(solid, upright));
   if (!(most > 0.0)) return {std::move(solid), {}, {}};
   LowestPart lowest(upright.vertices, solid.skin(), most);

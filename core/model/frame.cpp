@@ -42,8 +42,9 @@ Points toModel(const Frame& frame, const Points& working) {
   return ((working * frame.rotation) * frame.length).rowwise() + frame.origin.transpose();
 }
 
-Points snapped(const Points& working) {
-  return (working.array() * kGrid).round().matrix() / kGrid;
+Points snapped(Points working) {
+  working = (working.array() * kGrid).round() / kGrid;
+  return working;
 }
 
 double snappedUp(double working) {

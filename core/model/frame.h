@@ -21,7 +21,7 @@ Points toModel(const Frame& frame, const Points& working);
 
 /// Rounds to multiples of 2⁻³² (0.2 nanometres on a metre): scaling or moving a model changes the
 /// last bits of its working coordinates, and the skeleton's comparisons must not see that.
-Points snapped(const Points& working);
+Points snapped(Points working);
 /// The next greater one on the same grid.
 double snappedUp(double working);
 

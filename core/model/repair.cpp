@@ -136,8 +136,8 @@ std::string Repairs::describe() const {
   return text.empty() ? "none" : text;
 }
 
-RepairedMesh mergedAndCompacted(const TriangleMesh& mesh) {
-  RepairedMesh result{mesh, {}};
+RepairedMesh mergedAndCompacted(TriangleMesh mesh) {
+  RepairedMesh result{std::move(mesh), {}};
   Faces& faces = result.mesh.faces;
   Repairs& repairs = result.repairs;
   repairs.zeroAreaFaces += removeFacesWithACornerTwice(faces);
@@ -167,7 +167,8 @@ RepairedMesh withoutZeroAreaFaces(RepairedMesh input) {
   CGAL::Polygon_mesh_processing::remove_degenerate_faces(mesh);
   mesh.collect_garbage();
   input.repairs.zeroAreaFaces += before - degenerate();
-  input.mesh = triangleMesh(mesh);
+  const TriangleMesh rest = triangleMesh(mesh);
+  input.mesh = submesh(rest.vertices, rest.faces).mesh;
   return input;
 }
 

@@ -33,7 +33,7 @@ struct RepairedMesh {
 /// Leaves out unused vertices and faces that use a vertex twice; where the surface is open, merges
 /// vertices with the same coordinates (as every STL file has them); leaves out faces that are there
 /// twice. \pre finite coordinates, indices in range
-RepairedMesh mergedAndCompacted(const TriangleMesh& mesh);
+RepairedMesh mergedAndCompacted(TriangleMesh mesh);
 
 /// Removes faces without area by collapsing and flipping edges. A face that cannot be removed
 /// without harm to the surface stays. \pre a closed 2-manifold

@@ -104,16 +104,21 @@ void requireManifoldVertices(const TriangleMesh& mesh) {
 
 std::vector<int> orderInSpace(const Points& vertices, const Faces& faces, const Mat3& rotation,
                               double diagonal) {
-  const Points turned = vertices * rotation.transpose();
+  Points turned = vertices * rotation.transpose();
   const Eigen::RowVector3d corner = turned.colwise().minCoeff();
-  return spatialOrder(snapped((turned.rowwise() - corner) / diagonal), faces);
+  turned = (turned.rowwise() - corner) / diagonal; // in place: large models have many points
+  return spatialOrder(snapped(std::move(turned)), faces);
+}
+
+/// Ascending.
+std::vector<int> crossingFacesOf(const Points& vertices, const Faces& faces,
+                                 const std::vector<int>& spatialFaceOrder) {
+  return selfIntersectingFaces(
+      TriangleTree(vertices, faces, spatialFaceOrder, TriangleTree::Queries::NoDistances));
 }
 
 /// `skinFaces`: those before the lids.
-void requireNoSelfIntersection(const Points& vertices, const Faces& faces,
-                               const std::vector<int>& spatialFaceOrder, Eigen::Index skinFaces) {
-  const std::vector<int> crossingFaces = selfIntersectingFaces(
-      TriangleTree(vertices, faces, spatialFaceOrder, TriangleTree::Queries::NoDistances));
+void requireNone(const std::vector<int>& crossingFaces, Eigen::Index skinFaces) {
   const std::size_t crossing = crossingFaces.size();
   if (crossing > 0 && crossingFaces.back() >= skinFaces) {
     throw DefectiveSurface(
@@ -191,8 +196,8 @@ struct ClosedSurface {
   bool hasLids;
 };
 
-ClosedSurface closedSurface(const TriangleMesh& input, bool closeOpenings) {
-  RepairedMesh repaired = mergedAndCompacted(input);
+ClosedSurface closedSurface(TriangleMesh input, bool closeOpenings) {
+  RepairedMesh repaired = mergedAndCompacted(std::move(input));
   if (repaired.mesh.faces.rows() == 0) {
     throw InvalidInput("The layer has only faces without area: open a model that is a solid body.");
   }
@@ -286,11 +291,11 @@ std::vector<int> Solid::rim() const {
   return rim;
 }
 
-Solid makeSolid(const TriangleMesh& input, bool closeOpenings, const Mat3& rotation,
+Solid makeSolid(TriangleMesh input, bool closeOpenings, const Mat3& rotation,
                 const Repairs& before) {
   requireFiniteTriangles(input);
-  const ClosedSurface surface = closedSurface(input, closeOpenings);
-  const TriangleMesh& mesh = surface.repaired.mesh;
+  ClosedSurface surface = closedSurface(std::move(input), closeOpenings);
+  TriangleMesh& mesh = surface.repaired.mesh;
   const Points& x = mesh.vertices;
   Solid solid;
   solid.diagonal_ = (x.colwise().maxCoeff() - x.colwise().minCoeff()).norm();
@@ -302,19 +307,24 @@ Solid makeSolid(const TriangleMesh& input, bool closeOpenings, const Mat3& rotat
   const std::vector<double> volumes = requireVolumes(x, components, solid.diagonal_);
   // Which component is inside of which one is known only where they do not cross.
   solid.mayCross_ = !surface.hasLids && isOne;
-  if (!solid.mayCross_) requireNoSelfIntersection(x, mesh.faces, order, surface.skinFaces);
+  if (!solid.mayCross_) requireNone(crossingFacesOf(x, mesh.faces, order), surface.skinFaces);
 
-  const NestedParts parts = nestedParts(x, std::move(components), volumes, surface.hasLids);
-  const Submesh body = submesh(x, joined(parts.bodies));
-  solid.mesh_ = body.mesh;
-  solid.cavities_ = submesh(x, joined(parts.cavities)).mesh;
-  if (surface.hasLids) {
-    solid.isLid_ = marksOf(body, mesh.faces.bottomRows(mesh.faces.rows() - surface.skinFaces));
+  NestedParts parts = nestedParts(x, std::move(components), volumes, surface.hasLids);
+  if (isOne && !surface.hasLids) {
+    solid.mesh_ = {std::move(mesh.vertices), std::move(parts.bodies.front())};
+    solid.spatialFaceOrder_ = std::move(order);
+  } else {
+    Submesh body = submesh(x, joined(parts.bodies));
+    solid.cavities_ = submesh(x, joined(parts.cavities)).mesh;
+    if (surface.hasLids) {
+      solid.isLid_ = marksOf(body, mesh.faces.bottomRows(mesh.faces.rows() - surface.skinFaces));
+    }
+    solid.mesh_ = std::move(body.mesh);
+    // Of several components the faces were renumbered, and cavities must not show.
+    solid.spatialFaceOrder_ =
+        isOne ? std::move(order)
+              : orderInSpace(solid.mesh_.vertices, solid.mesh_.faces, rotation, solid.diagonal_);
   }
-  // Of several components the faces were renumbered, and cavities must not show.
-  solid.spatialFaceOrder_ =
-      isOne ? std::move(order)
-            : orderInSpace(body.mesh.vertices, body.mesh.faces, rotation, solid.diagonal_);
   solid.repairs_ = surface.repaired.repairs;
   solid.repairs_ += before;
   solid.repairs_.flippedComponents += parts.flipped;
@@ -324,8 +334,15 @@ Solid makeSolid(const TriangleMesh& input, bool closeOpenings, const Mat3& rotat
 
 void requireNoCrossings(const Solid& solid) {
   if (!solid.mayCross_) return;
-  requireNoSelfIntersection(solid.vertices(), solid.faces(), solid.spatialFaceOrder_,
-                            solid.faces().rows());
+  requireNone(crossingFacesOf(solid.vertices(), solid.faces(), solid.spatialFaceOrder_),
+              solid.faces().rows());
+}
+
+void requireNoCrossings(const Solid& solid, const TriangleTree& posed, double apart) {
+  if (!solid.mayCross_) return;
+  requireNone(selfIntersectingFaces(solid.vertices(), solid.faces(), posed,
+                                    {solid.spatialFaceOrder_, apart}),
+              solid.faces().rows());
 }
 
 Solid withoutCrossings(Solid solid) {

@@ -42,7 +42,7 @@ void expectPartAbove(const TriangleMesh& whole, double level, const TriangleMesh
 TEST(PlaneCut, OfABallLeavesTheRestOfIt) {
   const TriangleMesh ball = sphere(8);
   for (const double level : {-0.93, -0.41, 0.013, 0.77}) {
-    const auto cut = cutAbove(ball, level, 0.0, asTheyAre);
+    const auto cut = cutAbove(ball.vertices, ball.faces, level, 0.0, asTheyAre);
     ASSERT_TRUE(cut) << level;
     EXPECT_EQ(cut->spread, 0.0);
     expectPartAbove(ball, level, cut->mesh);
@@ -51,7 +51,7 @@ TEST(PlaneCut, OfABallLeavesTheRestOfIt) {
 
 TEST(PlaneCut, OfALyingRingHasACapWithAHole) {
   const TriangleMesh ring = torus(1.0, 0.3, 31, 17);
-  const auto cut = cutAbove(ring, -0.21, 0.0, asTheyAre);
+  const auto cut = cutAbove(ring.vertices, ring.faces, -0.21, 0.0, asTheyAre);
   ASSERT_TRUE(cut);
   expectPartAbove(ring, -0.21, cut->mesh);
   EXPECT_EQ(eulerCharacteristic(cut->mesh), 0);
@@ -59,13 +59,13 @@ TEST(PlaneCut, OfALyingRingHasACapWithAHole) {
 
 TEST(PlaneCut, OfSeveralFeetHasACapForEach) {
   const TriangleMesh bridge = polycube({{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {2, 0, 1}, {2, 0, 0}}, 2);
-  const auto cut = cutAbove(bridge, 0.3, 0.0, asTheyAre);
+  const auto cut = cutAbove(bridge.vertices, bridge.faces, 0.3, 0.0, asTheyAre);
   ASSERT_TRUE(cut);
   expectPartAbove(bridge, 0.3, cut->mesh);
   // Four feet of a standing ring that is cut in its middle, where it falls in two.
   const TriangleMesh ring =
       transformed(torus(1.0, 0.3, 31, 17), rotation(Vec3::UnitX(), 0.5 * kPi));
-  const auto halves = cutAbove(ring, 0.02, 0.0, asTheyAre);
+  const auto halves = cutAbove(ring.vertices, ring.faces, 0.02, 0.0, asTheyAre);
   ASSERT_TRUE(halves);
   expectPartAbove(ring, 0.02, halves->mesh);
   EXPECT_EQ(eulerCharacteristic(halves->mesh), 2);
@@ -78,7 +78,7 @@ TEST(PlaneCut, LiesInOnePlaneAsFloatsToo) {
     body.vertices = asFloats(body.vertices);
     const double low = body.vertices.col(2).minCoeff();
     const double level = low + 0.2 + 0.2 * random();
-    const auto cut = cutAbove(body, level, 0.0, asFloats);
+    const auto cut = cutAbove(body.vertices, body.faces, level, 0.0, asFloats);
     ASSERT_TRUE(cut);
     EXPECT_EQ(cut->spread, 0.0);
     EXPECT_EQ(cut->mesh.vertices, asFloats(cut->mesh.vertices));
@@ -107,8 +107,8 @@ TEST(PlaneCut, HasNoShortEdgesWhereCornersAreMerged) {
   const TriangleMesh cube = box({1, 1, 1}, 10);
   for (const double off : {-1e-7, 1e-7}) {
     const double level = -0.2 + off;
-    const auto plain = cutAbove(cube, level, 0.0, asTheyAre);
-    const auto merged = cutAbove(cube, level, 1e-4, asTheyAre);
+    const auto plain = cutAbove(cube.vertices, cube.faces, level, 0.0, asTheyAre);
+    const auto merged = cutAbove(cube.vertices, cube.faces, level, 1e-4, asTheyAre);
     ASSERT_TRUE(plain && merged);
     EXPECT_LT(shortestEdge(plain->mesh), 1e-6);
     EXPECT_GT(shortestEdge(merged->mesh), 0.05);
@@ -139,7 +139,7 @@ TEST(PlaneCut, OfAnOpenSurfaceKeepsItsOpening) {
     if (lowest < 0.5) faces.row(kept++) = cup.faces.row(f);
   }
   cup.faces = faces.topRows(kept);
-  const auto cut = cutAbove(cup, -0.33, 0.0, asTheyAre);
+  const auto cut = cutAbove(cup.vertices, cup.faces, -0.33, 0.0, asTheyAre);
   ASSERT_TRUE(cut);
   // The border is the opening's four sides of four edges.
   EXPECT_EQ(borderEdges(cut->mesh), 16U);
@@ -154,7 +154,7 @@ TEST(PlaneCut, IsNothingWhereCornersMeet) {
     rounded.col(1).setZero();
     return rounded;
   };
-  EXPECT_FALSE(cutAbove(body, 0.1, 0.0, flattened));
+  EXPECT_FALSE(cutAbove(body.vertices, body.faces, 0.1, 0.0, flattened));
 }
 
 } // namespace
