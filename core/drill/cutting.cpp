@@ -10,8 +10,11 @@
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 namespace massprops {
 namespace {
@@ -19,18 +22,52 @@ namespace {
 using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Exact::Point_3>;
 
-TriangleMesh rounded(Mesh& mesh, const std::function<Points(const Points&)>& representable) {
-  mesh.collect_garbage();
-  TriangleMesh result{Points(static_cast<Eigen::Index>(mesh.number_of_vertices()), 3),
-                      Faces(static_cast<Eigen::Index>(mesh.number_of_faces()), 3)};
+/// Corner k, k + 1 and k + 2, the one with the smallest number first.
+Eigen::RowVector3i smallestFirst(const Eigen::RowVector3i& corners) {
+  Eigen::Index k = 0;
+  corners.minCoeff(&k);
+  return {corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]};
+}
+
+/// The vertices that were `given` under their number, and faces of these alone, keep their order;
+/// the others are sorted: in CGAL's it depends on where in memory its boxes are.
+TriangleMesh rounded(const Mesh& mesh, const Points& given,
+                     const std::function<Points(const Points&)>& representable) {
+  using Place = std::pair<std::array<double, 3>, std::size_t>; // with the vertex's number
+  std::vector<Place> places;
+  std::vector<Place> others;
   for (const auto v : mesh.vertices()) {
     const Exact::Point_3& p = mesh.point(v);
-    result.vertices.row(static_cast<Eigen::Index>(v.idx())) << CGAL::to_double(CGAL::exact(p.x())),
-        CGAL::to_double(CGAL::exact(p.y())), CGAL::to_double(CGAL::exact(p.z()));
+    const Vec3 place(CGAL::to_double(CGAL::exact(p.x())), CGAL::to_double(CGAL::exact(p.y())),
+                     CGAL::to_double(CGAL::exact(p.z())));
+    const auto row = static_cast<Eigen::Index>(v.idx());
+    const bool isOld = row < given.rows() && given.row(row) == place.transpose();
+    (isOld ? places : others).push_back({{place.x(), place.y(), place.z()}, v.idx()});
   }
+  const auto old = static_cast<int>(places.size());
+  std::sort(others.begin(), others.end());
+  places.insert(places.end(), others.begin(), others.end());
+  TriangleMesh result{Points(static_cast<Eigen::Index>(places.size()), 3), Faces()};
+  std::vector<int> number(mesh.number_of_vertices() + mesh.number_of_removed_vertices(), -1);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto& [p, v] = places[i];
+    result.vertices.row(static_cast<Eigen::Index>(i)) << p[0], p[1], p[2];
+    number[v] = static_cast<int>(i);
+  }
+  std::vector<Eigen::RowVector3i> faces;
+  std::vector<Eigen::RowVector3i> cut;
   for (const auto f : mesh.faces()) {
-    result.faces.row(static_cast<Eigen::Index>(f.idx())) = cornersOf(mesh, f);
+    const Eigen::RowVector3i corners =
+        smallestFirst(cornersOf(mesh, f).unaryExpr([&](int v) { return number[v]; }));
+    (corners.maxCoeff() < old ? faces : cut).push_back(corners);
   }
+  std::sort(cut.begin(), cut.end(), [](const auto& a, const auto& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+  });
+  faces.insert(faces.end(), cut.begin(), cut.end());
+  result.faces.resize(static_cast<Eigen::Index>(faces.size()), 3);
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    result.faces.row(static_cast<Eigen::Index>(i)) = faces[i];
   result.vertices = representable(result.vertices);
   return result;
 }
@@ -66,11 +103,12 @@ public:
 
   std::optional<TriangleMesh> body(double turn) const {
     Mesh mesh = surfaceMesh<Mesh>(material_.vertices, material_.faces);
-    Mesh drills = drillsFor(0.0, turn);
+    const TriangleMesh all = drillsFor(0.0, turn);
+    Mesh drills = surfaceMesh<Mesh>(all.vertices, all.faces);
     if (!CGAL::Polygon_mesh_processing::corefine_and_compute_difference(mesh, drills, mesh)) {
       return {};
     }
-    TriangleMesh result = rounded(mesh, representable_);
+    TriangleMesh result = rounded(mesh, material_.vertices, representable_);
     const bool isAsExpected = eulerCharacteristic(result) == expected_.euler &&
                               componentCount(result) == expected_.components;
     return isAsExpected && isSound(result) ? std::optional(std::move(result)) : std::nullopt;
@@ -78,11 +116,12 @@ public:
 
   std::optional<std::vector<TriangleMesh>> plugs(double clearance, double turn) const {
     Mesh mesh = surfaceMesh<Mesh>(material_.vertices, material_.faces);
-    Mesh drills = drillsFor(clearance, turn);
+    const TriangleMesh whole = drillsFor(clearance, turn);
+    Mesh drills = surfaceMesh<Mesh>(whole.vertices, whole.faces);
     if (!CGAL::Polygon_mesh_processing::corefine_and_compute_intersection(mesh, drills, drills)) {
       return {};
     }
-    const TriangleMesh all = rounded(drills, representable_);
+    const TriangleMesh all = rounded(drills, whole.vertices, representable_);
     if (!isSound(all)) return {};
     std::vector<TriangleMesh> result;
     for (Submesh& part : componentMeshes(all.vertices, all.faces)) {
@@ -93,11 +132,10 @@ public:
   }
 
 private:
-  Mesh drillsFor(double clearance, double turn) const {
+  TriangleMesh drillsFor(double clearance, double turn) const {
     std::vector<TriangleMesh> drills;
     for (const Hole& hole : holes_) drills.push_back(drillOf(hole, clearance, turn));
-    const TriangleMesh all = assembled(drills);
-    return surfaceMesh<Mesh>(all.vertices, all.faces);
+    return assembled(drills);
   }
 
   const TriangleMesh& material_;

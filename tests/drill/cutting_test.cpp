@@ -11,7 +11,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <optional>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -90,6 +94,33 @@ TEST(Drilled, IsTheSameEveryTimeAndSurvivesRoundingToFloats) {
   EXPECT_EQ(once->body.faces, again->body.faces);
   EXPECT_EQ(once->body.vertices, rounding(once->body.vertices));
   EXPECT_TRUE(selfIntersectingFaces(once->body.vertices, once->body.faces).empty());
+}
+
+TEST(Drilled, IsTheSameWhereverInMemoryItHappens) {
+  // The drill's sides share coordinates with the box: what comes first of those must not depend on
+  // addresses. Blocks of all sizes that are used up or left free move what is allocated.
+  const TriangleMesh outer = box({10, 10, 10}, 12);
+  const TriangleMesh cavity = box({8, 8, 8}, 12);
+  const Hole side{{3.5, 0.0, 0.0}, Vec3::UnitX(), 0.8, 2.0};
+  std::mt19937 random(1);
+  std::uniform_int_distribution<std::size_t> size(1000, 100000);
+  std::vector<std::vector<char>> blocks;
+  std::optional<DrilledBody> first;
+  for (int i = 0; i < 20; ++i) {
+    for (int k = 0; k < 40; ++k) blocks.emplace_back(size(random));
+    std::shuffle(blocks.begin(), blocks.end(), random);
+    blocks.resize(blocks.size() / 2);
+    std::optional<DrilledBody> again = drilled(outer, cavity, {holeBelow(1), side}, 0.1, asTheyAre);
+    ASSERT_TRUE(again);
+    if (!first) first = again;
+    EXPECT_EQ(again->body.vertices, first->body.vertices);
+    EXPECT_EQ(again->body.faces, first->body.faces);
+    ASSERT_EQ(again->plugs.size(), first->plugs.size());
+    for (std::size_t k = 0; k < first->plugs.size(); ++k) {
+      EXPECT_EQ(again->plugs[k].vertices, first->plugs[k].vertices);
+      EXPECT_EQ(again->plugs[k].faces, first->plugs[k].faces);
+    }
+  }
 }
 
 TEST(Drilled, NothingWhereTheDrillDoesNotGoThrough) {
