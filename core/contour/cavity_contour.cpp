@@ -39,12 +39,29 @@ Contour thinnedOut(const Contour& contour, double distance) {
 
 /// Puts vertices back to where they were until no faces cross each other. \pre they did not there
 void putBackCrossing(const Points& before, Contour& contour) {
+  // What is put back may cross its neighbours: in sheets that goes on for long, so that these are
+  // put back, too, more of them each time.
+  constexpr int kOnesAlone = 2;
   TriangleMesh& mesh = contour.mesh;
-  for (;;) {
+  for (int round = 0;; ++round) {
     const std::vector<int> crossing = selfIntersectingFaces(mesh.vertices, mesh.faces);
     if (crossing.empty()) return;
-    for (const int f : crossing) {
-      for (const int v : mesh.faces.row(f)) mesh.vertices.row(v) = before.row(v);
+    std::vector<char> goesBack(static_cast<std::size_t>(before.rows()), 0);
+    const auto mark = [&](Eigen::Index f) {
+      for (const int v : mesh.faces.row(f)) goesBack[static_cast<std::size_t>(v)] = 1;
+    };
+    for (const int f : crossing) mark(f);
+    for (int ring = kOnesAlone; ring <= round; ++ring) {
+      const std::vector<char> within = goesBack;
+      for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
+        const auto corners = mesh.faces.row(f);
+        if (std::any_of(corners.begin(), corners.end(),
+                        [&](int v) { return within[static_cast<std::size_t>(v)] != 0; }))
+          mark(f);
+      }
+    }
+    for (Eigen::Index v = 0; v < before.rows(); ++v) {
+      if (goesBack[static_cast<std::size_t>(v)] != 0) mesh.vertices.row(v) = before.row(v);
     }
   }
 }
