@@ -384,6 +384,12 @@ void addEffort(const CavityResult& cavity, const Stages& stages, Report& report)
   if (stages.margins) report.add("seconds_margins", stages.secondsMargins);
 }
 
+/// As delivered.
+Eigen::Index trianglesOf(const PosedModel& posed, const CavityResult& cavity) {
+  const Faces& faces = cavity.cavity.faces;
+  return posed.open ? withoutLids(faces, posed.vertices.rows()).rows() : faces.rows();
+}
+
 } // namespace
 
 Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Verdicts& verdicts,
@@ -451,6 +457,7 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Ve
   }
   report.add("rounding_step", stages.rounding);
   report.add("cavity_components", hollow ? cavity.inspection.components : 0);
+  report.add("cavity_triangles", hollow ? static_cast<int>(trianglesOf(posed, cavity)) : 0);
   if (cavity.status == CavityStatus::NoRoom) {
     report.add("largest_wall", stages.largestWall * posed.frame.length);
     report.add("seconds_largest_wall", stages.secondsLargestWall);

@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -24,6 +25,7 @@ namespace massprops {
 namespace {
 
 constexpr double kLeastEdge = 1.0 / 1000.0; // of cubes
+constexpr Eigen::Index kEnoughTriangles = 60000;
 
 Points delivered(const CavityTask& task, const Points& working) {
   return task.deliverable ? task.deliverable(working) : working;
@@ -225,6 +227,37 @@ CavityResult roughCavity(const CavityTask& task, double edge, const Contour& con
   return servesBetter(task, moved, rough) ? moved : rough;
 }
 
+/// Of fewer triangles where there are more than anybody wants, if that costs next to nothing.
+CavityResult withFewTriangles(const CavityTask& task, const LayeredQuadric& quadric, double wall,
+                              const CavityContour& found, CavityResult result) {
+  constexpr double kFewer = 0.9;    // or it is not worth it
+  constexpr double kCheap = 0.01;   // of what is possible
+  constexpr double kLittle = 0.018; // to be left of it
+  constexpr std::array<double, 4> kShares{0.004, 0.008, 0.016, 0.032};
+  const auto shareOf = [&](const Faces& faces) {
+    return static_cast<double>(faces.rows()) / static_cast<double>(result.cavity.faces.rows());
+  };
+  const double gap = gapOf(task, result);
+  const double most = std::min(gap + kCheap, std::max(gap, kLittle));
+  for (const double share : kShares) {
+    if (result.cavity.faces.rows() <= kEnoughTriangles) return result;
+    const std::optional<CavityContour> thinned = thinner(found, task.surface, share);
+    if (!thinned) break;
+    if (!(shareOf(thinned->contour.mesh.faces) < kFewer)) continue;
+    CavityResult other = polished(task, quadric, wall, *thinned);
+    if (!other.inspection.isClean() || hollowBody(task, other).violation > kFeasibility ||
+        gapOf(task, other) > most)
+      break;
+    other.effort += result.effort;
+    result = std::move(other);
+  }
+  if (result.cavity.faces.rows() > kEnoughTriangles) {
+    result.stopReason += "; fewer than its " + std::to_string(result.cavity.faces.rows()) +
+                         " triangles would leave more of what is possible";
+  }
+  return result;
+}
+
 /// In cubes of the set's edge. `farthest`: what may be left of what is possible for the cavity to
 /// be worth finishing.
 Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, double farthest) {
@@ -255,7 +288,9 @@ Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, double farth
     if (!found->isFinished) return {std::move(rough), false};
     result = polished(task, quadric, wall, *found);
     result.effort.rounds = round;
-    if (result.inspection.isClean()) break;
+    if (!result.inspection.isClean()) continue;
+    result = withFewTriangles(task, quadric, wall, *found, std::move(result));
+    break;
   }
   result.shape = CavityShape::BestPossible;
   result.edge = deliverable.edge;
@@ -348,10 +383,15 @@ std::optional<CavityResult> uniformlyWalled(const CavityTask& task, const Opened
   const double volume = (solid - *mass) / perVolume;
   if (!(volume > 0.0)) return {};
   const double tolerance = 0.1 * kFeasibility * solid / std::abs(perVolume);
-  const std::optional<TriangleMesh> cavity =
-      cavityOfVolume({task.surface, volume, tolerance, wallBeforeRounding(task), set.ball, set.edge,
-                      [&](const Points& points) { return delivered(task, points); }});
-  if (!cavity) return {};
+  std::optional<TriangleMesh> cavity;
+  constexpr std::array<double, 3> kCoarser{1.0, 1.5, 2.25};
+  for (const double factor : kCoarser) {
+    cavity = cavityOfVolume({task.surface, volume, tolerance, wallBeforeRounding(task), set.ball,
+                             factor * set.edge,
+                             [&](const Points& points) { return delivered(task, points); }});
+    if (!cavity) return {};
+    if (cavity->faces.rows() <= kEnoughTriangles) break;
+  }
   CavityResult result = resultOf(task, *cavity);
   const Stopwatch time;
   result.inspection = inspect(result.inner, result.cavity.faces, task.surface, task.wall, false,

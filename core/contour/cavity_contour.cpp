@@ -17,6 +17,8 @@
 namespace massprops {
 namespace {
 
+constexpr double kSliver = 8.0; // degrees; a target that leaves room to what follows
+
 /// Without dust, and without material that would lie loose in the cavity.
 Contour withoutLooseParts(const Contour& contour, double leastVolume) {
   const Points& vertices = contour.mesh.vertices;
@@ -72,7 +74,6 @@ Contour smoothed(const Region& region, double edge, Contour contour) {
   const Points raw = contour.mesh.vertices;
   project(region, edge, contour);
   putBackCrossing(raw, contour);
-  constexpr double kSliver = 8.0; // degrees; a target that leaves room to what follows
   removeSlivers(kSliver, contour);
   constexpr double kFlat = 0.002; // walls
   contour = thinnedOut(contour, kFlat * region.wall);
@@ -132,7 +133,7 @@ std::optional<CavityContour> cavityContour(const OpenedSet& set,
                                            const std::optional<LayeredQuadric>& quadric,
                                            const std::function<bool(const Contour&)>& isWorthIt) {
   ClearanceQuery fresh(set.surface);
-  if (!set.deep) return CavityContour{{}, set.edge, fresh};
+  if (!set.deep) return CavityContour{{}, set.edge, set.wall, fresh};
   const double leastVolume = std::pow(set.ball.width, 3);
   // Vertices on the border shall not count as too near for their last digits.
   constexpr double kMore = 3e-4;
@@ -143,19 +144,29 @@ std::optional<CavityContour> cavityContour(const OpenedSet& set,
   constexpr int kRounds = 9;
   for (int round = 0; round < kRounds; ++round) {
     const Contour raw = withoutLooseParts(dualContour(lattice), leastVolume);
-    if (raw.mesh.faces.rows() == 0) return CavityContour{{}, set.edge, fresh};
+    if (raw.mesh.faces.rows() == 0) return CavityContour{{}, set.edge, set.wall, fresh};
     Contour contour = smoothed(region, set.edge, raw);
     ClearanceQuery clearance(set.surface);
     keepWallNearly(clearance, set.wall, contour.mesh);
     if (isWorthIt && !isWorthIt(contour))
-      return CavityContour{std::move(contour), set.edge, std::move(clearance), false};
+      return CavityContour{std::move(contour), set.edge, set.wall, std::move(clearance), false};
     const Troubles troubles = troublesLeft(clearance, set.wall, contour);
     if (troubles.areNone())
-      return CavityContour{std::move(contour), set.edge, std::move(clearance)};
+      return CavityContour{std::move(contour), set.edge, set.wall, std::move(clearance)};
     takeOut(troubles.thin, lattice);
     takeOut(troubles.crossing, lattice);
   }
   return {};
+}
+
+std::optional<CavityContour> thinner(const CavityContour& found, const TriangleTree& surface,
+                                     double share) {
+  CavityContour result{thinnedOut(found.contour, share * found.wall), found.edge, found.wall,
+                       ClearanceQuery(surface)};
+  removeSlivers(kSliver, result.contour);
+  keepWallNearly(result.clearance, result.wall, result.contour.mesh);
+  if (!troublesLeft(result.clearance, result.wall, result.contour).areNone()) return {};
+  return result;
 }
 
 } // namespace massprops

@@ -13,6 +13,7 @@ namespace massprops {
 struct CavityContour {
   Contour contour;
   double edge;              ///< of the cubes that it was made with
+  double wall;              ///< that it keeps
   ClearanceQuery clearance; ///< has measured it
   bool isFinished = true;
 };
@@ -25,5 +26,10 @@ struct CavityContour {
 std::optional<CavityContour>
 cavityContour(const OpenedSet& set, const std::optional<LayeredQuadric>& quadric,
               const std::function<bool(const Contour&)>& isWorthIt = {});
+
+/// The same with fewer triangles, no farther from it than a share of the wall. Empty: these cannot
+/// keep the wall without crossings.
+std::optional<CavityContour> thinner(const CavityContour& found, const TriangleTree& surface,
+                                     double share);
 
 } // namespace massprops

@@ -65,6 +65,36 @@ TEST(CavityContour, FillsAlmostAllOfWhatABallLeaves) {
               3e-3 * volume);
 }
 
+TEST(CavityContour, IsThinnedOutWithinADistanceAndKeepsTheWall) {
+  const TriangleMesh outer = sphere(30);
+  const TriangleTree tree(outer.vertices, outer.faces);
+  const double wall = 0.05;
+  const auto cavity = cavityContour(
+      openedSet(tree, wall, edgeOfCubes(surfaceArea(outer.vertices, outer.faces), 40000)), {});
+  ASSERT_TRUE(cavity);
+  Eigen::Index before = cavity->contour.mesh.faces.rows();
+  for (const double share : {0.008, 0.032}) {
+    const auto fewer = thinner(*cavity, tree, share);
+    ASSERT_TRUE(fewer);
+    const TriangleMesh& mesh = fewer->contour.mesh;
+    expectCavity(tree, wall, mesh);
+    EXPECT_LT(2 * mesh.faces.rows(), before);
+    before = mesh.faces.rows();
+    EXPECT_EQ(static_cast<Eigen::Index>(fewer->contour.on.size()), mesh.vertices.rows());
+    // In the mean square within the share, so that the farthest are not much beyond.
+    double farthest = 0.0;
+    for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
+      const Vec3 middle =
+          (mesh.vertices.row(mesh.faces(f, 0)) + mesh.vertices.row(mesh.faces(f, 1)) +
+           mesh.vertices.row(mesh.faces(f, 2)))
+              .transpose() /
+          3.0;
+      farthest = std::max(farthest, 1.0 - wall - middle.norm());
+    }
+    EXPECT_LT(farthest, 4.0 * share * wall);
+  }
+}
+
 TEST(CavityContour, LeavesOutChannelsNarrowerThanAWall) {
   // Two rooms with a passage between them that is 0.6 walls wide, and one of 1.6 walls.
   const double wall = 0.1;
