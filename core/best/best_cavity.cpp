@@ -25,7 +25,6 @@ namespace massprops {
 namespace {
 
 constexpr double kLeastEdge = 1.0 / 1000.0; // of cubes
-constexpr Eigen::Index kEnoughTriangles = 60000;
 
 Points delivered(const CavityTask& task, const Points& working) {
   return task.deliverable ? task.deliverable(working) : working;
@@ -227,37 +226,6 @@ CavityResult roughCavity(const CavityTask& task, double edge, const Contour& con
   return servesBetter(task, moved, rough) ? moved : rough;
 }
 
-/// Of fewer triangles where there are more than anybody wants, if that costs next to nothing.
-CavityResult withFewTriangles(const CavityTask& task, const LayeredQuadric& quadric, double wall,
-                              const CavityContour& found, CavityResult result) {
-  constexpr double kFewer = 0.9;    // or it is not worth it
-  constexpr double kCheap = 0.01;   // of what is possible
-  constexpr double kLittle = 0.018; // to be left of it
-  constexpr std::array<double, 4> kShares{0.004, 0.008, 0.016, 0.032};
-  const auto shareOf = [&](const Faces& faces) {
-    return static_cast<double>(faces.rows()) / static_cast<double>(result.cavity.faces.rows());
-  };
-  const double gap = gapOf(task, result);
-  const double most = std::min(gap + kCheap, std::max(gap, kLittle));
-  for (const double share : kShares) {
-    if (result.cavity.faces.rows() <= kEnoughTriangles) return result;
-    const std::optional<CavityContour> thinned = thinner(found, task.surface, share);
-    if (!thinned) break;
-    if (!(shareOf(thinned->contour.mesh.faces) < kFewer)) continue;
-    CavityResult other = polished(task, quadric, wall, *thinned);
-    if (!other.inspection.isClean() || hollowBody(task, other).violation > kFeasibility ||
-        gapOf(task, other) > most)
-      break;
-    other.effort += result.effort;
-    result = std::move(other);
-  }
-  if (result.cavity.faces.rows() > kEnoughTriangles) {
-    result.stopReason += "; fewer than its " + std::to_string(result.cavity.faces.rows()) +
-                         " triangles would leave more of what is possible";
-  }
-  return result;
-}
-
 /// In cubes of the set's edge. `farthest`: what may be left of what is possible for the cavity to
 /// be worth finishing.
 Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, double farthest) {
@@ -288,12 +256,14 @@ Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, double farth
     if (!found->isFinished) return {std::move(rough), false};
     result = polished(task, quadric, wall, *found);
     result.effort.rounds = round;
-    if (!result.inspection.isClean()) continue;
-    result = withFewTriangles(task, quadric, wall, *found, std::move(result));
-    break;
+    if (result.inspection.isClean()) break;
   }
   result.shape = CavityShape::BestPossible;
   result.edge = deliverable.edge;
+  if (result.cavity.faces.rows() > kEnoughTriangles) {
+    result.stopReason += "; fewer than its " + std::to_string(result.cavity.faces.rows()) +
+                         " triangles would leave more of what is possible";
+  }
   if (result.status == CavityStatus::Found) {
     if (!result.inspection.isClean()) {
       // There is room, but none of the surfaces passed.

@@ -39,6 +39,26 @@ Contour thinnedOut(const Contour& contour, double distance) {
   return partOf(contour, std::move(fewer.mesh), fewer.vertexOf);
 }
 
+constexpr double kFlat = 0.002; // walls
+
+/// No more triangles than are wanted, if that costs next to nothing; else all of them.
+Contour withFewTriangles(double wall, Contour contour) {
+  constexpr double kCheap = 0.003;   // of the volume
+  constexpr double kFarthest = 0.03; // walls
+  constexpr double kStep = 1.5;
+  if (contour.mesh.faces.rows() <= kEnoughTriangles) return contour;
+  const auto volumeOf = [](const Contour& some) {
+    return signedVolume(some.mesh.vertices, some.mesh.faces);
+  };
+  const double volume = volumeOf(contour);
+  for (double share = kStep * kFlat; share < kFarthest; share *= kStep) {
+    Contour fewer = thinnedOut(contour, share * wall);
+    if (std::abs(volumeOf(fewer) - volume) > kCheap * volume) break;
+    if (fewer.mesh.faces.rows() <= kEnoughTriangles) return fewer;
+  }
+  return contour;
+}
+
 /// Puts vertices back to where they were until no faces cross each other. \pre they did not there
 void putBackCrossing(const Points& before, Contour& contour) {
   // What is put back may cross its neighbours: in sheets that goes on for long, so that these are
@@ -75,8 +95,8 @@ Contour smoothed(const Region& region, double edge, Contour contour) {
   project(region, edge, contour);
   putBackCrossing(raw, contour);
   removeSlivers(kSliver, contour);
-  constexpr double kFlat = 0.002; // walls
   contour = thinnedOut(contour, kFlat * region.wall);
+  contour = withFewTriangles(region.wall, std::move(contour));
   removeSlivers(kSliver, contour);
   return contour;
 }
@@ -133,7 +153,7 @@ std::optional<CavityContour> cavityContour(const OpenedSet& set,
                                            const std::optional<LayeredQuadric>& quadric,
                                            const std::function<bool(const Contour&)>& isWorthIt) {
   ClearanceQuery fresh(set.surface);
-  if (!set.deep) return CavityContour{{}, set.edge, set.wall, fresh};
+  if (!set.deep) return CavityContour{{}, set.edge, fresh};
   const double leastVolume = std::pow(set.ball.width, 3);
   // Vertices on the border shall not count as too near for their last digits.
   constexpr double kMore = 3e-4;
@@ -144,29 +164,19 @@ std::optional<CavityContour> cavityContour(const OpenedSet& set,
   constexpr int kRounds = 9;
   for (int round = 0; round < kRounds; ++round) {
     const Contour raw = withoutLooseParts(dualContour(lattice), leastVolume);
-    if (raw.mesh.faces.rows() == 0) return CavityContour{{}, set.edge, set.wall, fresh};
+    if (raw.mesh.faces.rows() == 0) return CavityContour{{}, set.edge, fresh};
     Contour contour = smoothed(region, set.edge, raw);
     ClearanceQuery clearance(set.surface);
     keepWallNearly(clearance, set.wall, contour.mesh);
     if (isWorthIt && !isWorthIt(contour))
-      return CavityContour{std::move(contour), set.edge, set.wall, std::move(clearance), false};
+      return CavityContour{std::move(contour), set.edge, std::move(clearance), false};
     const Troubles troubles = troublesLeft(clearance, set.wall, contour);
     if (troubles.areNone())
-      return CavityContour{std::move(contour), set.edge, set.wall, std::move(clearance)};
+      return CavityContour{std::move(contour), set.edge, std::move(clearance)};
     takeOut(troubles.thin, lattice);
     takeOut(troubles.crossing, lattice);
   }
   return {};
-}
-
-std::optional<CavityContour> thinner(const CavityContour& found, const TriangleTree& surface,
-                                     double share) {
-  CavityContour result{thinnedOut(found.contour, share * found.wall), found.edge, found.wall,
-                       ClearanceQuery(surface)};
-  removeSlivers(kSliver, result.contour);
-  keepWallNearly(result.clearance, result.wall, result.contour.mesh);
-  if (!troublesLeft(result.clearance, result.wall, result.contour).areNone()) return {};
-  return result;
 }
 
 } // namespace massprops

@@ -10,10 +10,12 @@
 
 namespace massprops {
 
+/// A surface of more triangles is made with fewer where that costs next to nothing of its volume.
+constexpr Eigen::Index kEnoughTriangles = 60000;
+
 struct CavityContour {
   Contour contour;
   double edge;              ///< of the cubes that it was made with
-  double wall;              ///< that it keeps
   ClearanceQuery clearance; ///< has measured it
   bool isFinished = true;
 };
@@ -26,10 +28,5 @@ struct CavityContour {
 std::optional<CavityContour>
 cavityContour(const OpenedSet& set, const std::optional<LayeredQuadric>& quadric,
               const std::function<bool(const Contour&)>& isWorthIt = {});
-
-/// The same with fewer triangles, no farther from it than a share of the wall. Empty: these cannot
-/// keep the wall without crossings.
-std::optional<CavityContour> thinner(const CavityContour& found, const TriangleTree& surface,
-                                     double share);
 
 } // namespace massprops
