@@ -43,15 +43,17 @@ constexpr double kFlat = 0.002; // walls
 
 /// No more triangles than are wanted, if that costs next to nothing; else all of them.
 Contour withFewTriangles(double wall, Contour contour) {
-  constexpr double kCheap = 0.003;   // of the volume
-  constexpr double kFarthest = 0.03; // walls
+  constexpr double kCheap = 0.003; // of the volume
   constexpr double kStep = 1.5;
+  constexpr int kSteps = 6;
   if (contour.mesh.faces.rows() <= kEnoughTriangles) return contour;
   const auto volumeOf = [](const Contour& some) {
     return signedVolume(some.mesh.vertices, some.mesh.faces);
   };
   const double volume = volumeOf(contour);
-  for (double share = kStep * kFlat; share < kFarthest; share *= kStep) {
+  double share = kFlat;
+  for (int step = 0; step < kSteps; ++step) {
+    share *= kStep;
     Contour fewer = thinnedOut(contour, share * wall);
     if (std::abs(volumeOf(fewer) - volume) > kCheap * volume) break;
     if (fewer.mesh.faces.rows() <= kEnoughTriangles) return fewer;
