@@ -1,6 +1,7 @@
 #include "core/answer/hollowing_report.h"
 
 #include "core/base/tolerances.h"
+#include "core/base/triangle.h"
 #include "core/goals/registry.h"
 #include "core/reduced/hollow_body.h"
 
@@ -384,6 +385,19 @@ void addEffort(const CavityResult& cavity, const Stages& stages, Report& report)
   if (stages.margins) report.add("seconds_margins", stages.secondsMargins);
 }
 
+/// Triangles with an angle below 5°.
+int sliversOf(const CavityResult& cavity) {
+  constexpr double kLeast = 5.0;
+  int count = 0;
+  for (Eigen::Index f = 0; f < cavity.cavity.faces.rows(); ++f) {
+    const auto corner = [&](int k) {
+      return cavity.inner.row(cavity.cavity.faces(f, k)).transpose();
+    };
+    if (leastAngle(corner(0), corner(1), corner(2)) < kLeast) ++count;
+  }
+  return count;
+}
+
 /// As delivered.
 Eigen::Index trianglesOf(const PosedModel& posed, const CavityResult& cavity) {
   const Faces& faces = cavity.cavity.faces;
@@ -458,6 +472,8 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Ve
   report.add("rounding_step", stages.rounding);
   report.add("cavity_components", hollow ? cavity.inspection.components : 0);
   report.add("cavity_triangles", hollow ? static_cast<int>(trianglesOf(posed, cavity)) : 0);
+  if (hollow && cavity.shape == CavityShape::BestPossible)
+    report.add("cavity_slivers", sliversOf(cavity));
   if (cavity.status == CavityStatus::NoRoom) {
     report.add("largest_wall", stages.largestWall * posed.frame.length);
     report.add("seconds_largest_wall", stages.secondsLargestWall);

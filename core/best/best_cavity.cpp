@@ -47,6 +47,8 @@ double wallBeforeRounding(const CavityTask& task) {
   return task.wall + kMore * (delivered(task, middles) - middles).rowwise().norm().maxCoeff();
 }
 
+constexpr double kSliver = 5.0; // degrees
+
 /// Not inspected, and without the outer surface, which is large and the same for all.
 CavityResult resultOf(const CavityTask& task, const TriangleMesh& mesh) {
   CavityResult result;
@@ -89,15 +91,25 @@ public:
     return candidate;
   }
 
-  /// Inspected. Vertices whose faces do not pass go back to where they were and stay there with
-  /// those around them, while the others are adjusted anew.
+  /// Inspected. Vertices whose faces do not pass, or have become slivers, go back to where they
+  /// were and stay there with those around them, while the others are adjusted anew.
   void makePass(Candidate& candidate) {
     constexpr int kRounds = 5;
     std::vector<char> held(static_cast<std::size_t>(before_.rows()), 0);
+    std::optional<CavityResult> clean; // but for slivers
+    const auto isFeasible = [&](const CavityResult& result) {
+      return hollowBody(task_, result).violation <= kFeasibility;
+    };
     for (int round = 0;; ++round) {
-      inspectResult(candidate.result);
-      if (candidate.result.inspection.isClean() || round == kRounds) return;
-      if (!holdFaulty(candidate, held)) return;
+      CavityResult& result = candidate.result;
+      inspectResult(result);
+      const bool isClean = result.inspection.isClean();
+      if (round == kRounds || !holdFaulty(candidate, held)) {
+        const bool isLess = !isClean || (clean && isFeasible(*clean) && !isFeasible(result));
+        if (clean && isLess) result = *std::move(clean);
+        return;
+      }
+      if (isClean) clean = result;
       adjust(held, candidate);
     }
   }
@@ -121,13 +133,27 @@ private:
     secondsInspection_ += time.seconds();
   }
 
+  /// Whether it has an angle below 5° that it had not where it comes from.
+  bool hasBecomeSliver(const Contour& contour, Eigen::Index f) const {
+    const auto angle = [&](const Points& x) {
+      const auto corner = [&](int k) { return x.row(contour.mesh.faces(f, k)).transpose(); };
+      return leastAngle(corner(0), corner(1), corner(2));
+    };
+    return angle(contour.mesh.vertices) < kSliver && angle(before_) >= kSliver;
+  }
+
   /// Whether there was one that was not held yet.
   bool holdFaulty(Candidate& candidate, std::vector<char>& held) const {
     const Inspection& inspection = candidate.result.inspection;
-    const Faces& faces = candidate.contour.mesh.faces;
+    Contour& contour = candidate.contour;
+    const Faces& faces = contour.mesh.faces;
     std::vector<char> faulty(held.size(), 0);
     for (const int v : inspection.crossing) faulty[static_cast<std::size_t>(v)] = 1;
     for (const int v : inspection.thin) faulty[static_cast<std::size_t>(v)] = 1;
+    for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+      if (!hasBecomeSliver(contour, f)) continue;
+      for (const int v : faces.row(f)) faulty[static_cast<std::size_t>(v)] = 1;
+    }
     bool isNew = false;
     const auto isFaulty = [&](int v) { return faulty[static_cast<std::size_t>(v)] != 0; };
     for (Eigen::Index f = 0; f < faces.rows(); ++f) {
@@ -136,7 +162,7 @@ private:
       for (const int v : corners) {
         isNew = isNew || held[static_cast<std::size_t>(v)] == 0;
         held[static_cast<std::size_t>(v)] = 1;
-        candidate.contour.mesh.vertices.row(v) = before_.row(v);
+        contour.mesh.vertices.row(v) = before_.row(v);
       }
     }
     return isNew;
