@@ -450,6 +450,7 @@ std::vector<int> selfIntersectingFaces(const Points& vertices, const Faces& face
 }
 
 std::vector<int> selfIntersectingFaces(const TriangleTree& surface) {
+  if (surface.faces().rows() == 0) return {};
   return SelfIntersections(surface.vertices(), surface.faces(), surface, nullptr).find();
 }
 

@@ -17,13 +17,20 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Of what is kept out: none at all would be a crossing's.
 constexpr double kLeastClearance = 1e-12;
 
-/// Leaves of a tree over so many triangles, with at most four for each: roots · 4^k of them, with
-/// fifteen roots at most.
+/// Leaves of a tree over so many triangles, with at most four for each: a power of two. Of large
+/// trees, whose memory counts, roots · 4^k, so that they are nearly full: for that searches begin
+/// at up to fifteen roots.
 Eigen::Index leafCount(Eigen::Index triangles) {
+  constexpr Eigen::Index kLarge = 500000;
   constexpr Eigen::Index kMostRoots = 16;
+  Eigen::Index leaves = 1;
+  if (triangles <= kLarge) {
+    while (4 * leaves < triangles) leaves *= 2;
+    return leaves;
+  }
   Eigen::Index below = 1; // a root
   while (4 * kMostRoots * below < triangles) below *= 4;
-  return std::max<Eigen::Index>(1, (triangles + 4 * below - 1) / (4 * below)) * below;
+  return (triangles + 4 * below - 1) / (4 * below) * below;
 }
 
 /// Leaves below each of as few roots as can be.

@@ -134,7 +134,7 @@ private:
   const Faces& faces_;
   std::vector<int> order_;     ///< empty: as given
   Vec3 centre_ = Vec3::Zero(); ///< that boxes and packets are relative to
-  Eigen::Index leaves_ = 1;    ///< roots · 4^k, so that the leaves are nearly full
+  Eigen::Index leaves_ = 1;    ///< roots · 4^k
   /// Walks begin at nodes 0 … roots − 1; the children of node i are roots + 4i … roots + 4i + 3.
   /// Entry i holds their boxes.
   int roots_ = 1;

@@ -24,6 +24,10 @@ TEST(SelfIntersectingFaces, AgreeWithTheCheckPairByPair) {
   EXPECT_GT(intersectingPairs(pierced), 0U);
 }
 
+TEST(SelfIntersectingFaces, AreNoneWhereThereAreNoFaces) {
+  EXPECT_TRUE(selfIntersectingFaces(Points(0, 3), Faces(0, 3)).empty());
+}
+
 TEST(SelfIntersectingFaces, AreFoundBesideFacesWithoutArea) {
   // A face's edge is broken at its middle, with a flat face in between; then two bodies overlap.
   TriangleMesh mesh = box({1, 1, 1}, 2);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <random>
@@ -112,6 +113,28 @@ TEST(TriangleTree, HasAllTrianglesHoweverManyThereAre) {
       double least = std::numeric_limits<double>::infinity();
       for (int f = 0; f < count; ++f) least = std::min(least, tree.squaredDistance(p, f));
       EXPECT_EQ(tree.nearest(p).squaredDistance, least) << count;
+    }
+  }
+}
+
+TEST(TriangleTree, OfManyTrianglesHasAllInNearlyFullLeaves) {
+  const TriangleMesh mesh = sphere(190);
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> place(-1.5, 1.5);
+  for (const Eigen::Index count : {520000, 600000, 700000}) {
+    ASSERT_LE(count, mesh.faces.rows());
+    const Faces some = mesh.faces.topRows(count);
+    const TriangleTree tree(mesh.vertices, some);
+    std::vector<char> seen(static_cast<std::size_t>(count), 0);
+    tree.forOverlaps(tree.lower(), tree.upper(), 0,
+                     [&](Eigen::Index i) { ++seen[static_cast<std::size_t>(tree.faceAt(i))]; });
+    EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), count);
+    for (int i = 0; i < 10; ++i) {
+      const Vec3 p(place(random), place(random), place(random));
+      double least = std::numeric_limits<double>::infinity();
+      for (int f = 0; f < static_cast<int>(count); ++f)
+        least = std::min(least, tree.squaredDistance(p, f));
+      EXPECT_EQ(tree.nearest(p).squaredDistance, least);
     }
   }
 }
