@@ -288,7 +288,7 @@ Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, double farth
   result.edge = deliverable.edge;
   if (result.cavity.faces.rows() > kEnoughTriangles) {
     result.stopReason += "; fewer than its " + std::to_string(result.cavity.faces.rows()) +
-                         " triangles would leave more of what is possible";
+                         " triangles would be too far from where its surface should be";
   }
   if (result.status == CavityStatus::Found) {
     if (!result.inspection.isClean()) {
@@ -382,12 +382,14 @@ std::optional<CavityResult> uniformlyWalled(const CavityTask& task, const Opened
   std::optional<TriangleMesh> cavity;
   constexpr std::array<double, 3> kCoarser{1.0, 1.5, 2.25};
   for (const double factor : kCoarser) {
-    cavity = cavityOfVolume({task.surface, volume, tolerance, wallBeforeRounding(task), set.ball,
-                             factor * set.edge,
-                             [&](const Points& points) { return delivered(task, points); }});
-    if (!cavity) return {};
+    std::optional<TriangleMesh> found = cavityOfVolume(
+        {task.surface, volume, tolerance, wallBeforeRounding(task), set.ball, factor * set.edge,
+         [&](const Points& points) { return delivered(task, points); }});
+    if (!found) break;
+    cavity = std::move(found);
     if (cavity->faces.rows() <= kEnoughTriangles) break;
   }
+  if (!cavity) return {};
   CavityResult result = resultOf(task, *cavity);
   const Stopwatch time;
   result.inspection = inspect(result.inner, result.cavity.faces, task.surface, task.wall, false,
