@@ -10,12 +10,11 @@ namespace massprops {
 namespace {
 
 Vector wallOf(const CavityTask& task, const CavityResult& cavity) {
-  const std::vector<int>& near = cavity.inspection.nearestFace;
   return task.model.outer
              ? wallAtVertices(cavity.inner,
                               {cavity.outer, task.surface.faces(), TriangleTree::Order::Spatial},
-                              near)
-             : wallAtVertices(cavity.inner, task.surface, near);
+                              cavity.inspection)
+             : wallAtVertices(cavity.inner, task.surface, cavity.inspection);
 }
 
 /// Whether the input and the cavity bound the material together.

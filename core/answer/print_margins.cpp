@@ -52,7 +52,7 @@ public:
 
   /// `cells`: in the model's bounding box.
   Moments moments(int cells) const {
-    RegionParts parts = admissibleParts(*outer_, perimeters_, cells);
+    RegionParts parts = admissibleParts(*outer_, perimeters_, cells, outer_->slightSlack());
     if (inner_.faces().rows() > 0) parts = partsOutside(inner_, perimeters_, parts);
     const AdmissibleCells deep = cellsOf(parts);
     return deep.rows() > 0 ? Moments(deep.colwise().sum().transpose()) : Moments(Moments::Zero());

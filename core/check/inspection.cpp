@@ -76,6 +76,7 @@ Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleT
     inspection.wall = std::move(found.distance);
     inspection.leastWall = found.least;
     inspection.nearestFace = std::move(found.nearestFace);
+    inspection.wallOfVertexAtLeast = std::move(found.vertexBounds);
     inspection.thin = thinnerThan(wall, inspection.wall);
   };
   if (first == LookFirst::ForThinWalls) {
@@ -135,6 +136,7 @@ Inspection inspectShell(const Points& positions, const Faces& cavity, const Tria
   inspection.wall.tail(n).setZero();
   inspection.leastWall = clearance.least;
   inspection.nearestFace = std::move(clearance.nearestFace);
+  inspection.wallOfVertexAtLeast = std::move(clearance.vertexBounds);
   inspection.thin = thinnerThan(wall, inspection.wall.head(n));
   inspection.components = static_cast<int>(connectedComponents(positions.rows(), cavity).size());
   return inspection;

@@ -23,6 +23,8 @@ struct Inspection {
   std::vector<int> thin;
   /// The outer face next to each vertex; −1 for a vertex without a face.
   std::vector<int> nearestFace;
+  /// How far each vertex itself is from the outer surface at least, see `Clearance`.
+  Vector wallOfVertexAtLeast;
   int components = 0;
 
   bool isClean() const { return crossing.empty() && outerCrossing.empty() && thin.empty(); }

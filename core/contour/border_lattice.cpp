@@ -15,6 +15,13 @@ Place cornerStep(int i) {
   return {i & 1, i >> 1 & 1, i >> 2};
 }
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// How far a value may be off.
+double uncertainty(const Region& region, double value) {
+  return region.surface.slightSlack() * std::abs(value + region.wall);
+}
+
 /// A cube of twice the edge that the border may pass through.
 struct Block {
   Place place;
@@ -34,16 +41,20 @@ public:
 
   const std::vector<Block>& found() const { return found_; }
 
-  void visit(const Place& place, int level, bool isDeep) {
+  /// `atLeast`: of its middle, as far as that is known.
+  void visit(const Place& place, int level, bool isDeep, double atLeast) {
     const double size = edge_ * (1 << level);
     const double radius = 0.5 * std::sqrt(3.0) * size;
     const Vec3 centre = origin_ + edge_ * place.cast<double>() + Vec3::Constant(0.5 * size);
     Block block{place, {}};
     if (!isDeep) {
-      block.middle = probe_.at(centre, radius);
+      block.middle = probe_.at(centre, radius, atLeast > -region_.wall);
       block.isOfSurface = probe_.isOfSurface();
-      if (block.middle->value <= -radius) return;
-      isDeep = block.middle->value >= radius;
+      const double value = block.middle->value;
+      const double sure = radius + uncertainty(region_, value);
+      if (value <= -sure) return;
+      isDeep = value >= sure;
+      atLeast = value - sure + 0.5 * radius; // in the middles of its parts
     }
     const Side side = region_.quadric ? sideOfCut(region_, centre, radius) : Side::Positive;
     if (side == Side::Negative || (isDeep && side == Side::Positive)) return;
@@ -53,7 +64,7 @@ public:
       return;
     }
     for (int i = 0; i < 8; ++i)
-      visit(place + (1 << (level - 1)) * cornerStep(i), level - 1, isDeep);
+      visit(place + (1 << (level - 1)) * cornerStep(i), level - 1, isDeep, atLeast);
   }
 
 private:
@@ -108,8 +119,8 @@ void sampleCorner(const Region& region, InsetProbe& probe, int c, BorderLattice&
 /// What is known of what the walls leave at a corner without asking there: it changes by no more
 /// than one moves, and it is no more than the distance from any point of the surface.
 struct Bounds {
-  double atLeast = -std::numeric_limits<double>::infinity();
-  double atMost = std::numeric_limits<double>::infinity();
+  double atLeast = -kInfinity;
+  double atMost = kInfinity;
   bool isNearWall = false; ///< else only the quadric matters
 };
 
@@ -118,10 +129,11 @@ struct Bounds {
 class PartOfLattice {
 public:
   PartOfLattice(const Region& region, const Vec3& origin, double edge, const Place& first)
-      : region_(region), origin_(origin), edge_(edge), first_(first), probe_(region),
+      : region_(region), origin_(origin), edge_(edge), first_(first),
+        probe_(region, region.surface.slightSlack()),
         numbers_(at(kAcross * kAcross * kAcross), -1) {
     BorderSearch search(region, origin, edge, probe_);
-    search.visit(first, BorderSearch::kTopLevel, false);
+    search.visit(first, BorderSearch::kTopLevel, false, -kInfinity);
     for (const Block& block : search.found()) add(block);
     for (std::size_t c = 0; c < corners_.size(); ++c) findSide(c);
     for (const Block& block : search.found()) addCubes(block.place);
@@ -172,7 +184,7 @@ private:
       const Sample& middle = *block.middle;
       if (step == Place::Ones()) corners_[at(number)].inset = middle;
       const Vec3 x = positionOf(place);
-      const double away = (x - centre).norm();
+      const double away = (x - centre).norm() + uncertainty(region_, middle.value);
       bounds.atLeast = std::max(bounds.atLeast, middle.value - away);
       bounds.atMost = std::min(bounds.atMost, middle.value + away);
       if (!block.isOfSurface) continue;
@@ -196,7 +208,7 @@ private:
     corner.isInside = (!corner.cut || corner.cut->value > least) && bounds.atMost > 0.0;
     if (!corner.isInside || isFarBehind(c)) return;
     if (!corner.inset && (isNearCut || bounds.atLeast <= least))
-      corner.inset = probe_.at(x, kFar * edge_);
+      corner.inset = probe_.at(x, kFar * edge_, bounds.atLeast > -region_.wall);
     corner.mayBeChamfered = corner.inset.has_value();
     corner.isInside = corner.value(edge_) > least;
   }
@@ -227,7 +239,8 @@ private:
     }
     for (std::size_t c = 0; c < corners_.size(); ++c) {
       if (isCrossed[c] == 0 || corners_[c].inset || isFarBehind(c)) continue;
-      corners_[c].inset = probe_.at(positionOf(corners_[c].place), 2.0 * edge_);
+      corners_[c].inset =
+          probe_.at(positionOf(corners_[c].place), 2.0 * edge_, bounds_[c].atLeast > -region_.wall);
     }
   }
 
@@ -282,7 +295,7 @@ void addCrossed(const Region& region, const Vec3& extent, BorderLattice& lattice
 /// Adds the cubes beyond sides with corners on both sides of the border that are not there: the
 /// search for cubes takes surfaces for smoother than rounded distances are.
 void addMissing(const Region& region, BorderLattice& lattice) {
-  InsetProbe probe(region);
+  InsetProbe probe(region, region.surface.slightSlack());
   for (int cube = 0; cube < static_cast<int>(lattice.cubes.size()); ++cube) {
     const unsigned inside = lattice.cornersInside(cube);
     if (inside == 0 || inside == 255) continue;
@@ -313,7 +326,7 @@ void tame(std::vector<int> wild, BorderLattice& lattice) {
     if (cutOnce()[lattice.cornersInside(cube)]) continue;
     const auto valueInside = [&](int c) {
       const Corner& corner = lattice.corners[at(c)];
-      return corner.isInside ? corner.value(lattice.edge) : std::numeric_limits<double>::infinity();
+      return corner.isInside ? corner.value(lattice.edge) : kInfinity;
     };
     const auto& corners = lattice.cubes[at(cube)];
     Corner& least =

@@ -68,21 +68,13 @@ Side sideOfCut(const Region& region, const Vec3& x, double radius) {
   return isPositive && isNegative ? Side::Both : isPositive ? Side::Positive : Side::Negative;
 }
 
-InsetProbe::InsetProbe(const Region& region) : region_(region), inside_(region.surface) {
+InsetProbe::InsetProbe(const Region& region, double slack)
+    : region_(region), slack_(slack), inside_(region.surface) {
   if (region.deep != nullptr) insideDeep_.emplace(region.deep->border);
 }
 
-bool InsetProbe::isInside(const Vec3& x, bool isNearest) const {
-  const bool isNearLast = (x - last_.centre).squaredNorm() < last_.radius * last_.radius;
-  if (isNearLast) return last_.isInside;
-  // Only the nearest face tells the side.
-  constexpr double kAnywhere = std::numeric_limits<double>::infinity();
-  return inside_.contains(x, isNearest ? nearest_
-                                       : region_.surface.nearest(x, kAnywhere, nearest_.face));
-}
-
-Sample InsetProbe::at(const Vec3& x, double horizon) {
-  Sample inset = behindWalls(x, horizon);
+Sample InsetProbe::at(const Vec3& x, double horizon, bool isInside) {
+  Sample inset = behindWalls(x, horizon, isInside);
   if (region_.fill == nullptr || inset.value <= -horizon) return inset;
   Sample filled = region_.fill->at(x);
   if (filled.value >= inset.value) return inset;
@@ -90,15 +82,27 @@ Sample InsetProbe::at(const Vec3& x, double horizon) {
   return filled;
 }
 
-Sample InsetProbe::behindWalls(const Vec3& x, double horizon) {
+Sample InsetProbe::behindWalls(const Vec3& x, double horizon, bool isInside) {
+  constexpr double kAnywhere = std::numeric_limits<double>::infinity();
   const DeepPart* deep = region_.deep;
+  const TriangleTree& surface = region_.surface;
   const double exact = (deep != nullptr ? deep->depth : region_.wall) + horizon;
-  nearest_ = region_.surface.nearest(x, std::numeric_limits<double>::infinity(), nearest_.face,
-                                     exact * exact);
+  const bool isNearLast = (x - last_.centre).squaredNorm() < last_.radius * last_.radius;
+  const bool isSideKnown = isInside || isNearLast;
+  // Only the very nearest face tells the side.
+  const double slack = isSideKnown ? slack_ : 0.0;
+  nearest_ = surface.nearest(x, kAnywhere, nearest_.face, exact * exact, slack);
   const double found = std::sqrt(nearest_.squaredDistance);
-  // Farther away it may be another point than the nearest one, which the ball must not reach.
-  const double clearOf = found > exact ? std::max(exact, found / TriangleTree::kSlack) : found;
-  last_ = {x, clearOf, isInside(x, found <= exact)};
+  const bool isFar = found > exact;
+  if (isSideKnown) {
+    last_.isInside = isInside || last_.isInside;
+  } else {
+    last_.isInside =
+        inside_.contains(x, isFar ? surface.nearest(x, kAnywhere, nearest_.face) : nearest_);
+  }
+  // It may be another point than the nearest one, which the ball must not reach.
+  last_.centre = x;
+  last_.radius = isFar ? std::max(exact, found / TriangleTree::kSlack) : found / (1.0 + slack);
   const TriangleTree::Hit clear = region_.surface.clearance(x, nearest_);
   const double distance = std::sqrt(clear.squaredDistance);
   const double sign = last_.isInside ? 1.0 : -1.0;
@@ -109,7 +113,7 @@ Sample InsetProbe::behindWalls(const Vec3& x, double horizon) {
   // Not the nearest of the deep part, but near enough as a rule.
   const int known = nearestDeep_.face;
   if (known >= 0 &&
-      deep->reach - std::sqrt(deep->border.squaredDistance(x, known)) >= inset.value) {
+      deep->reach - std::sqrt(deep->border.nearestOn(known, x).squaredDistance) >= inset.value) {
     return inset;
   }
   return ofOpening(x, horizon, inset);

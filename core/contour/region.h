@@ -43,11 +43,13 @@ Side sideOfCut(const Region& region, const Vec3& x, double radius);
 /// they are near each other.
 class InsetProbe {
 public:
-  explicit InsetProbe(const Region& region);
+  /// `slack`: the share of the distance from the surface by which this may be found too large.
+  explicit InsetProbe(const Region& region, double slack = 0.0);
 
-  /// Exact between −`horizon` and `horizon`; beyond it too far from 0 by a twentieth at most, or
-  /// ±`horizon`.
-  Sample at(const Vec3& x, double horizon);
+  /// Exact, slack apart, between −`horizon` and `horizon`; beyond it too far from 0 by a twentieth
+  /// at most, or ±`horizon`. `isInside`: x is known to lie inside of the surface, which makes it
+  /// quicker.
+  Sample at(const Vec3& x, double horizon, bool isInside = false);
 
   /// Whether the last one is the distance from the surface alone: from where it is positive the way
   /// against its slope, as long as the value, ends on the border.
@@ -55,12 +57,11 @@ public:
 
 private:
   /// Without what carries ceilings.
-  Sample behindWalls(const Vec3& x, double horizon);
+  Sample behindWalls(const Vec3& x, double horizon, bool isInside);
   Sample ofOpening(const Vec3& x, double horizon, const Sample& inset);
-  /// `isNearest`: what was found is the nearest point, not only about as near.
-  bool isInside(const Vec3& x, bool isNearest) const;
 
   const Region& region_;
+  double slack_;
   PointInMesh inside_;
   std::optional<PointInMesh> insideDeep_;
   TriangleTree::Hit nearest_, nearestDeep_;

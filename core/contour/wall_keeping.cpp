@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace massprops {
 namespace {
@@ -57,9 +56,8 @@ void moveInwards(const ClearanceQuery& clearance, double wall, const Vector& mis
     for (Eigen::Index i = chunk.begin; i < chunk.end; ++i) {
       const int v = thin[static_cast<std::size_t>(i)];
       const Vec3 x = cavity.vertices.row(v).transpose();
-      constexpr double kAnywhere = std::numeric_limits<double>::infinity();
       const int near = clearance.nearestFace()[static_cast<std::size_t>(v)];
-      const Vec3 next = surface.clearance(x, surface.nearest(x, kAnywhere, near)).point;
+      const Vec3 next = surface.clearance(x, surface.nearestOn(near, x)).point;
       const Vec3 inwards = -normals.row(v).transpose();
       // Where a face bulges, away from its corner's nearest point is not away from the face's.
       targets.row(v) += ((kMore + more) * missing[v] + kLeast * wall) *

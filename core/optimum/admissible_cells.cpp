@@ -44,8 +44,8 @@ constexpr int kNone = -1;
 /// parts of border cells; 1 are the cells.
 class RegionSampler {
 public:
-  RegionSampler(const TriangleTree& surface, double wall, double edge)
-      : surface_(surface), wall_(wall), edge_(edge) {}
+  RegionSampler(const TriangleTree& surface, double wall, double edge, double slack)
+      : surface_(surface), wall_(wall), edge_(edge), slack_(slack) {}
 
   void add(const Vec3& centre) { visit(centre, kTop, kNone, {}); }
 
@@ -86,19 +86,23 @@ private:
     const double nothing = level > 0 ? half : half - wall_;
     if (isSideKnown && !ball.isInside && ball.radius >= nothing) return;
     // Farther away the surface does not matter.
-    const double far =
-        isSideKnown && ball.isInside ? wall_ + half : std::numeric_limits<double>::infinity();
+    constexpr double kAnywhere = std::numeric_limits<double>::infinity();
+    const double far = isSideKnown && ball.isInside ? wall_ + half : kAnywhere;
+    // Only the very nearest face tells the side.
+    const double slack = isSideKnown ? slack_ : 0.0;
     TriangleTree::Hit onSurface;
     onSurface.squaredDistance = far * far;
-    if (ball.radius < far) onSurface = surface_.nearest(centre, far * far, near.face);
+    if (ball.radius < far)
+      onSurface = surface_.nearest(centre, far * far, near.face, kAnywhere, slack);
     const TriangleTree::Hit nearest = surface_.clearance(centre, onSurface);
     if (!(nearest.squaredDistance < far * far)) {
       known_.push_back({centre, far, true});
       parts_.push_back({centre, far, Vec3::UnitX(), level, cell});
       return;
     }
-    ball.radius = std::sqrt(nearest.squaredDistance);
-    if (ball.radius <= wall_ - half) return;
+    const double distance = std::sqrt(nearest.squaredDistance);
+    if (distance <= wall_ - half) return;
+    ball.radius = std::max(ball.radius, distance / (1.0 + slack));
     // Asked only where it tells the side of all parts: their middles are half as far as corners.
     if (isSideKnown || ball.radius > 0.5 * half || level == 0) {
       if (!isSideKnown) ball.isInside = PointInMesh(surface_).contains(centre, onSurface);
@@ -106,9 +110,9 @@ private:
       if (!ball.isInside && ball.radius >= nothing) return;
     }
     if (level == 0 || (ball.isInside && ball.radius >= wall_ + half)) {
-      const double sign = ball.isInside ? 1.0 : -1.0;
-      const Vec3 away = (centre - nearest.point) / std::max(ball.radius, 1e-300);
-      parts_.push_back({centre, sign * ball.radius, sign * away, level, cell});
+      const Vec3 away = (centre - nearest.point) / std::max(distance, 1e-300);
+      const double depth = ball.isInside ? distance : -ball.radius;
+      parts_.push_back({centre, depth, (ball.isInside ? 1.0 : -1.0) * away, level, cell});
       return;
     }
     if (level == 1) cell = borderCells_++;
@@ -129,6 +133,7 @@ private:
   const TriangleTree& surface_;
   double wall_;
   double edge_;
+  double slack_;
   std::vector<RegionPart> parts_;
   std::vector<Ball> known_; ///< around the cubes that the present one is part of, and their parts
   int borderCells_ = 0;
@@ -142,7 +147,7 @@ double cellEdge(const Vec3& extent, int cells) {
 
 } // namespace
 
-RegionParts admissibleParts(const TriangleTree& surface, double wall, int cells) {
+RegionParts admissibleParts(const TriangleTree& surface, double wall, int cells, double slack) {
   const Vec3 low = surface.vertices().colwise().minCoeff();
   const Vec3 high = surface.vertices().colwise().maxCoeff();
   const Vec3 extent = high - low;
@@ -156,7 +161,7 @@ RegionParts admissibleParts(const TriangleTree& surface, double wall, int cells)
     const Eigen::Index column = chunk.number / counts.z();
     const Eigen::Array<Eigen::Index, 3, 1> place(column / counts.y(), column % counts.y(),
                                                  chunk.number % counts.z());
-    RegionSampler sampler(surface, wall, edge);
+    RegionSampler sampler(surface, wall, edge, slack);
     sampler.add(low + step * (place.cast<double>() + 0.5).matrix());
     chunks[static_cast<std::size_t>(chunk.number)] = std::move(sampler).parts();
   });

@@ -33,8 +33,10 @@ struct RegionParts {
   std::vector<Sample> opposites = {};
 };
 
-/// The cubes that `admissibleCells` are made of, see there.
-RegionParts admissibleParts(const TriangleTree& surface, double wall, int cells = 20000);
+/// The cubes that `admissibleCells` are made of, see there. `slack`: the share by which depths may
+/// be found too large, which is quicker.
+RegionParts admissibleParts(const TriangleTree& surface, double wall, int cells = 20000,
+                            double slack = 0.0);
 
 /// The same with smaller cells where the rooms are narrow, a few across their mean width.
 RegionParts resolvedParts(const TriangleTree& surface, double wall);

@@ -167,6 +167,7 @@ public:
   }
 
   const std::vector<int>& nearestFace() const { return nearestFace_; }
+  const Vector& vertexBounds() const { return vertexBounds_; }
   const Vector& faceBounds() const { return faceBounds_; }
   ClearanceQuery::Memory memory() const {
     return {x_, nearestFace_, faces_, vertexBounds_, faceBounds_};
@@ -241,7 +242,7 @@ private:
     if (face < 0) return false;
     const double bound = remembered_.vertexBound(v);
     if (bound < horizon_) return false;
-    const double most = other_.squaredDistance(x_.row(v).transpose(), face);
+    const double most = other_.nearestOn(face, x_.row(v).transpose()).squaredDistance;
     if (most > TriangleTree::kSlack * TriangleTree::kSlack * bound * bound) return false;
     squared_[v] = most;
     vertexBounds_[v] = bound;
@@ -298,6 +299,7 @@ Clearance ClearanceQuery::measure(const Points& vertices, const Faces& faces, do
   if (faces.rows() == 0) {
     result.distance = Vector::Constant(vertices.rows(), kInfinity);
     result.nearestFace.assign(static_cast<std::size_t>(vertices.rows()), -1);
+    result.vertexBounds = Vector::Zero(vertices.rows());
     result.least = kInfinity;
     return result;
   }
@@ -308,6 +310,7 @@ Clearance ClearanceQuery::measure(const Points& vertices, const Faces& faces, do
   result.distance = measurement.distances();
   result.least = result.distance.minCoeff();
   result.nearestFace = measurement.nearestFace();
+  result.vertexBounds = measurement.vertexBounds();
   memory_ = measurement.memory();
   return result;
 }

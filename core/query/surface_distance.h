@@ -16,6 +16,8 @@ struct Clearance {
   double least = 0.0;           ///< of all, exact to a billionth; infinity without faces
   std::vector<int> crossing;    ///< faces that cross the other surface, ascending
   std::vector<int> nearestFace; ///< of the other surface, for every vertex; −1 without a face
+  /// How far every vertex itself is from the other surface at least; 0 without a face.
+  Vector vertexBounds;
 };
 
 /// Measures surfaces against one that rests, and remembers: what has hardly moved since the last

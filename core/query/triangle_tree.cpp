@@ -14,6 +14,7 @@ namespace {
 
 constexpr Eigen::Index kChunk = 4096;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr Eigen::Index kLarge = 500000; // triangles
 /// Of what is kept out: none at all would be a crossing's.
 constexpr double kLeastClearance = 1e-12;
 
@@ -21,7 +22,6 @@ constexpr double kLeastClearance = 1e-12;
 /// trees, whose memory counts, roots · 4^k, so that they are nearly full: for that searches begin
 /// at up to fifteen roots.
 Eigen::Index leafCount(Eigen::Index triangles) {
-  constexpr Eigen::Index kLarge = 500000;
   constexpr Eigen::Index kMostRoots = 16;
   Eigen::Index leaves = 1;
   if (triangles <= kLarge) {
@@ -320,23 +320,26 @@ void TriangleTree::visitWithin(const Distances& distances, const Reach& reach,
   }
 }
 
+double TriangleTree::slightSlack() const {
+  constexpr double kSlight = 0.002;
+  return faces_.rows() > kLarge ? kSlight : 0.0;
+}
+
 TriangleTree::Hit TriangleTree::nearest(const Vec3& p, double squaredBound, int hintFace,
-                                        double squaredExact) const {
+                                        double squaredExact, double slack) const {
   assert(!triangles_.empty());
   Hit best;
   best.squaredDistance = squaredBound;
   // Boxes at this distance or farther away are of no interest.
   double reach = squaredBound;
+  const double nearEnough = 1.0 / ((1.0 + slack) * (1.0 + slack));
   const auto visit = [&](int f) {
-    const Vec3 a = corner(f, 0);
-    const Vec3 b = corner(f, 1);
-    const Vec3 c = corner(f, 2);
-    const Vec3 point = nearestOnTriangle(p, a, b, c);
-    const double distance = (p - point).squaredNorm();
-    if (!(distance < best.squaredDistance)) return;
-    best = {distance, f, point};
-    reach =
-        distance > squaredExact ? std::max(squaredExact, distance / (kSlack * kSlack)) : distance;
+    const Hit hit = nearestOn(f, p);
+    if (!(hit.squaredDistance < best.squaredDistance)) return;
+    best = hit;
+    reach = best.squaredDistance > squaredExact
+                ? std::max(squaredExact, best.squaredDistance / (kSlack * kSlack))
+                : nearEnough * best.squaredDistance;
   };
   if (hintFace >= 0) visit(hintFace);
   visitNearest(
@@ -356,9 +359,9 @@ TriangleTree::Hit TriangleTree::nearest(const Vec3& p, double squaredBound, int 
   return best;
 }
 
-double TriangleTree::squaredDistance(const Vec3& p, int face) const {
-  return (p - nearestOnTriangle(p, corner(face, 0), corner(face, 1), corner(face, 2)))
-      .squaredNorm();
+TriangleTree::Hit TriangleTree::nearestOn(int face, const Vec3& p) const {
+  const Vec3 point = nearestOnTriangle(p, corner(face, 0), corner(face, 1), corner(face, 2));
+  return {(p - point).squaredNorm(), face, point};
 }
 
 double TriangleTree::squaredDistance(const Vec3& a, const Vec3& b, const Vec3& c,

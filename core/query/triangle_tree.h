@@ -44,16 +44,19 @@ public:
     Vec3 point = Vec3::Zero();
   };
   /// The point of the surface next to `p`, if it is nearer than the bound; quicker with a face that
-  /// is known to be near. What is not within `squaredExact` may be farther than the nearest point
-  /// by 5 %: from the middle of a limb all of it is equally far, and looking for the nearest is
-  /// slow.
+  /// is known to be near. Looking for the nearest of many that are about as far away is slow: what
+  /// is found may be farther away than that by `slack`, a share, and what is not within
+  /// `squaredExact` by 5 %, as from the middle of a limb.
   Hit nearest(const Vec3& p, double squaredBound = std::numeric_limits<double>::infinity(),
-              int hintFace = -1,
-              double squaredExact = std::numeric_limits<double>::infinity()) const;
+              int hintFace = -1, double squaredExact = std::numeric_limits<double>::infinity(),
+              double slack = 0.0) const;
   static constexpr double kSlack = 1.05;
+  /// For where a point about as far away will do: 0.002 for surfaces of more than 500,000
+  /// triangles; else 0, for there is little to gain, and edges between walls stay exact.
+  double slightSlack() const;
 
-  /// Squared distance of a point from one face.
-  double squaredDistance(const Vec3& p, int face) const;
+  /// The point of one face next to `p`.
+  Hit nearestOn(int face, const Vec3& p) const;
 
   /// From then on clearances are those from all within `radius` of these other triangles, too,
   /// which must outlive the tree. Distances stay those from the surface.

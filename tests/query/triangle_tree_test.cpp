@@ -41,7 +41,7 @@ TEST_P(NearestPoint, IsThatOfAllTriangles) {
     const Vec3 p = origin + far * size * Vec3(place(random), place(random), place(random));
     double least = std::numeric_limits<double>::infinity();
     for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
-      least = std::min(least, tree.squaredDistance(p, static_cast<int>(f)));
+      least = std::min(least, tree.nearestOn(static_cast<int>(f), p).squaredDistance);
     }
     const TriangleTree::Hit hit = tree.nearest(p);
     ASSERT_GE(hit.face, 0);
@@ -57,6 +57,32 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(std::pair(1.0, Vec3(0, 0, 0)), std::pair(1e25, Vec3(0, 0, 0)),
                       std::pair(1e-25, Vec3(0, 0, 0)), std::pair(1e-21, Vec3(0, 0, 0)),
                       std::pair(1.0, Vec3(1e5, -3e6, 0)), std::pair(1e-3, Vec3(0, 0, 1e5))));
+
+TEST(NearestPoint, IsNotFartherAwayThanTheSlackAllows) {
+  const TriangleMesh ball = sphere(40);
+  const TriangleTree tree(ball.vertices, ball.faces);
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> place(-0.5, 0.5);
+  std::uniform_int_distribution<int> face(0, static_cast<int>(ball.faces.rows()) - 1);
+  constexpr double kAnywhere = std::numeric_limits<double>::infinity();
+  int farther = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 p(place(random), place(random), place(random));
+    const double least = std::sqrt(tree.nearest(p).squaredDistance);
+    const int hint = face(random);
+    for (const double slack : {0.0, 0.002, 0.03}) {
+      // Beyond 0.8 it may be 5 % whatever the slack.
+      const TriangleTree::Hit hit = tree.nearest(p, kAnywhere, hint, 0.64, slack);
+      const double found = std::sqrt(hit.squaredDistance);
+      EXPECT_NEAR(found, (p - hit.point).norm(), 1e-12);
+      EXPECT_GE(found, least - 1e-12);
+      const double allowed = found > 0.8 ? TriangleTree::kSlack : 1.0 + slack;
+      EXPECT_LE(found, allowed * least + 1e-12);
+      if (found > least + 1e-12) ++farther;
+    }
+  }
+  EXPECT_GT(farther, 100); // or it saves nothing
+}
 
 TEST(Clearance, IsThatOfTheSurfaceAndOfAllWithinARadiusOfWhatIsKeptOut) {
   const TriangleMesh ball = sphere(6);
@@ -111,7 +137,7 @@ TEST(TriangleTree, HasAllTrianglesHoweverManyThereAre) {
     for (int i = 0; i < 20; ++i) {
       const Vec3 p(place(random), place(random), place(random));
       double least = std::numeric_limits<double>::infinity();
-      for (int f = 0; f < count; ++f) least = std::min(least, tree.squaredDistance(p, f));
+      for (int f = 0; f < count; ++f) least = std::min(least, tree.nearestOn(f, p).squaredDistance);
       EXPECT_EQ(tree.nearest(p).squaredDistance, least) << count;
     }
   }
@@ -133,7 +159,7 @@ TEST(TriangleTree, OfManyTrianglesHasAllInNearlyFullLeaves) {
       const Vec3 p(place(random), place(random), place(random));
       double least = std::numeric_limits<double>::infinity();
       for (int f = 0; f < static_cast<int>(count); ++f)
-        least = std::min(least, tree.squaredDistance(p, f));
+        least = std::min(least, tree.nearestOn(f, p).squaredDistance);
       EXPECT_EQ(tree.nearest(p).squaredDistance, least);
     }
   }
