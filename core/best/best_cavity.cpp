@@ -59,78 +59,84 @@ CavityResult resultOf(const CavityTask& task, const TriangleMesh& mesh) {
   return result;
 }
 
+/// Where the vertices of a contour might go, and the body with the cavity that they make.
 struct Candidate {
-  Contour contour;
-  CavityResult result;
+  Points vertices;
+  Body body;
 };
 
 class Polishing {
 public:
-  Polishing(const CavityTask& task, const LayeredQuadric& quadric, const CavityContour& found)
-      : task_(task), quadric_(quadric), edge_(found.edge), before_(found.contour.mesh.vertices),
-        clearance_(found.clearance) {}
+  Polishing(const CavityTask& task, const LayeredQuadric& quadric, CavityContour found)
+      : task_(task), quadric_(quadric), edge_(found.edge), found_(std::move(found.contour)),
+        clearance_(std::move(found.clearance)) {}
 
   int evaluations() const { return evaluations_; }
   double secondsInspection() const { return secondsInspection_; }
 
-  /// Not inspected.
-  Candidate unmoved(const Contour& contour) const {
-    return {contour, resultOf(task_, contour.mesh)};
-  }
+  /// Where they are.
+  Candidate unmoved() const { return candidateOf(found_); }
 
-  /// Whether the wall is kept afterwards.
-  bool moveCreases(double wall, Contour& contour) {
+  /// With creases that move, which leave the walls' surface a little, and the constraints with it.
+  /// Empty: the wall is not kept.
+  std::optional<Candidate> withMovedCreases(double wall) {
+    Contour contour = found_;
     evaluations_ += polish(task_, quadric_, Moving::CutAndCreases, edge_, {}, contour).evaluations;
-    return keepWall(clearance_, wall, contour.mesh).empty();
+    if (!keepWall(clearance_, wall, contour.mesh).empty()) return std::nullopt;
+    adjust({}, contour);
+    return candidateOf(contour);
   }
 
-  /// Not inspected.
-  Candidate adjusted(const Contour& contour) {
-    Candidate candidate{contour, {}};
-    adjust({}, candidate);
-    return candidate;
+  Candidate adjusted() {
+    Contour contour = found_;
+    adjust({}, contour);
+    return candidateOf(contour);
   }
 
   /// Inspected. Vertices whose faces do not pass, or have become slivers, go back to where they
   /// were and stay there with those around them, while the others are adjusted anew.
-  void makePass(Candidate& candidate) {
+  CavityResult passed(Points vertices) {
     constexpr int kRounds = 5;
-    std::vector<char> held(static_cast<std::size_t>(before_.rows()), 0);
+    Contour contour = found_;
+    contour.mesh.vertices = std::move(vertices);
+    std::vector<char> held(static_cast<std::size_t>(contour.mesh.vertices.rows()), 0);
     std::optional<CavityResult> clean; // but for slivers
     const auto isFeasible = [&](const CavityResult& result) {
       return hollowBody(task_, result).violation <= kFeasibility;
     };
     for (int round = 0;; ++round) {
-      CavityResult& result = candidate.result;
-      inspectResult(result);
+      CavityResult result = inspectedResultOf(contour.mesh);
       const bool isClean = result.inspection.isClean();
-      if (round == kRounds || !holdFaulty(candidate, held)) {
+      if (round == kRounds || !holdFaulty(result.inspection, contour, held)) {
         const bool isLess = !isClean || (clean && isFeasible(*clean) && !isFeasible(result));
-        if (clean && isLess) result = *std::move(clean);
-        return;
+        return clean && isLess ? *std::move(clean) : result;
       }
-      if (isClean) clean = result;
-      adjust(held, candidate);
+      if (isClean) clean = std::move(result);
+      adjust(held, contour);
     }
   }
 
 private:
-  void adjust(const std::vector<char>& held, Candidate& candidate) {
+  Candidate candidateOf(const Contour& contour) const {
+    return {contour.mesh.vertices, hollowBody(task_, resultOf(task_, contour.mesh))};
+  }
+
+  void adjust(const std::vector<char>& held, Contour& contour) {
     constexpr int kTimes = 3; // each goes a part of an edge's length at most
     for (int i = 0; i < kTimes; ++i) {
-      const Polished polished =
-          polish(task_, quadric_, Moving::CutAlone, edge_, held, candidate.contour);
+      const Polished polished = polish(task_, quadric_, Moving::CutAlone, edge_, held, contour);
       evaluations_ += polished.evaluations;
       if (polished.violation <= kFeasibility && !polished.isFarthest) break;
     }
-    candidate.result = resultOf(task_, candidate.contour.mesh);
   }
 
-  void inspectResult(CavityResult& result) {
+  CavityResult inspectedResultOf(const TriangleMesh& mesh) {
+    CavityResult result = resultOf(task_, mesh);
     const Stopwatch time;
     result.inspection = inspect(result.inner, result.cavity.faces, task_.surface, task_.wall, false,
                                 LookFirst::ForAll, &clearance_, task_.stored);
     secondsInspection_ += time.seconds();
+    return result;
   }
 
   /// Whether it has an angle below 5° that it had not where it comes from.
@@ -139,13 +145,11 @@ private:
       const auto corner = [&](int k) { return x.row(contour.mesh.faces(f, k)).transpose(); };
       return leastAngle(corner(0), corner(1), corner(2));
     };
-    return angle(contour.mesh.vertices) < kSliver && angle(before_) >= kSliver;
+    return angle(contour.mesh.vertices) < kSliver && angle(found_.mesh.vertices) >= kSliver;
   }
 
   /// Whether there was one that was not held yet.
-  bool holdFaulty(Candidate& candidate, std::vector<char>& held) const {
-    const Inspection& inspection = candidate.result.inspection;
-    Contour& contour = candidate.contour;
+  bool holdFaulty(const Inspection& inspection, Contour& contour, std::vector<char>& held) const {
     const Faces& faces = contour.mesh.faces;
     std::vector<char> faulty(held.size(), 0);
     for (const int v : inspection.crossing) faulty[static_cast<std::size_t>(v)] = 1;
@@ -162,7 +166,7 @@ private:
       for (const int v : corners) {
         isNew = isNew || held[static_cast<std::size_t>(v)] == 0;
         held[static_cast<std::size_t>(v)] = 1;
-        contour.mesh.vertices.row(v) = before_.row(v);
+        contour.mesh.vertices.row(v) = found_.mesh.vertices.row(v);
       }
     }
     return isNew;
@@ -171,7 +175,7 @@ private:
   const CavityTask& task_;
   const LayeredQuadric& quadric_;
   double edge_;
-  const Points& before_; ///< where the vertices come from, which passes the inspection
+  const Contour found_; ///< passes the inspection
   ClearanceQuery clearance_;
   int evaluations_ = 0;
   double secondsInspection_ = 0.0;
@@ -180,41 +184,40 @@ private:
 /// The contour as the goal would have it, or as it was: what serves best of those that are clean,
 /// for triangles that give way to the wall cost more in one than in another.
 CavityResult polished(const CavityTask& task, const LayeredQuadric& quadric, double wall,
-                      const CavityContour& found) {
-  Polishing polishing(task, quadric, found);
-  std::vector<Candidate> candidates{polishing.unmoved(found.contour)};
-  // Creases that move leave the walls' surface a little, and the constraints with it.
-  Contour whole = found.contour;
-  if (polishing.moveCreases(wall, whole)) candidates.push_back(polishing.adjusted(whole));
-  candidates.push_back(polishing.adjusted(found.contour));
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [&](const Candidate& a, const Candidate& b) {
-                     return servesBetter(task, a.result, b.result);
-                   });
+                      CavityContour found) {
+  Polishing polishing(task, quadric, std::move(found));
+  std::vector<Candidate> candidates;
+  candidates.push_back(polishing.unmoved());
+  if (auto moved = polishing.withMovedCreases(wall)) candidates.push_back(*std::move(moved));
+  candidates.push_back(polishing.adjusted());
+  std::stable_sort(
+      candidates.begin(), candidates.end(),
+      [&](const Candidate& a, const Candidate& b) { return servesBetter(task, a.body, b.body); });
   // What passes at once serves better than what comes after it; what gave way may not.
-  CavityResult* best = nullptr;
+  std::optional<CavityResult> best;
+  Body bestBody;
   const Body solid = inputBody(task);
-  const auto isWorthInspecting = [&](const CavityResult& result) {
+  const auto isWorthInspecting = [&](const Body& body) {
     constexpr double kNoticeable = 1e-3; // of what is possible
-    const Body body = hollowBody(task, result);
-    const Body bestBody = hollowBody(task, *best);
     if (bestBody.violation > kFeasibility) return servesBetter(task, body, bestBody);
     return gapToBound(*task.bound, solid, bestBody) - gapToBound(*task.bound, solid, body) >
            kNoticeable;
   };
   for (Candidate& candidate : candidates) {
-    if (best != nullptr && best->inspection.isClean() && !isWorthInspecting(candidate.result))
-      continue;
-    polishing.makePass(candidate);
-    const bool isClean = candidate.result.inspection.isClean();
-    if (best == nullptr ||
-        (isClean && (!best->inspection.isClean() || servesBetter(task, candidate.result, *best))))
-      best = &candidate.result;
+    if (best && best->inspection.isClean() && !isWorthInspecting(candidate.body)) continue;
+    CavityResult result = polishing.passed(std::move(candidate.vertices));
+    const Body body = hollowBody(task, result);
+    const bool isBetter =
+        !best || (result.inspection.isClean() &&
+                  (!best->inspection.isClean() || servesBetter(task, body, bestBody)));
+    if (!isBetter) continue;
+    best = std::move(result);
+    bestBody = body;
   }
   best->effort.evaluations = polishing.evaluations();
   best->effort.secondsInspection = polishing.secondsInspection();
   best->stopReason = "the limit's cavity, adjusted on its triangles";
-  return std::move(*best);
+  return *std::move(best);
 }
 
 /// The set with another wall.
@@ -245,11 +248,12 @@ struct Made {
 
 /// Hardly polished, not inspected.
 CavityResult roughCavity(const CavityTask& task, double edge, const Contour& contour) {
-  CavityResult rough = resultOf(task, contour.mesh);
+  const Body unmoved = hollowBody(task, resultOf(task, contour.mesh));
   Contour adjusted = contour;
   polish(task, task.bound->worth, Moving::CutAlone, edge, {}, adjusted);
   CavityResult moved = resultOf(task, adjusted.mesh);
-  return servesBetter(task, moved, rough) ? moved : rough;
+  return servesBetter(task, hollowBody(task, moved), unmoved) ? moved
+                                                              : resultOf(task, contour.mesh);
 }
 
 /// In cubes of the set's edge. `farthest`: what may be left of what is possible for the cavity to
@@ -260,7 +264,10 @@ Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, double farth
   const auto isWorthIt = [&](const Contour& contour) {
     if (!std::isfinite(farthest)) return true;
     rough = roughCavity(task, deliverable.edge, contour);
-    return hollowBody(task, rough).violation > kFeasibility || gapOf(task, rough) <= farthest;
+    const bool isWorth =
+        hollowBody(task, rough).violation > kFeasibility || gapOf(task, rough) <= farthest;
+    if (isWorth) rough = {};
+    return isWorth;
   };
   const double roomy = wallBeforeRounding(task);
   double wall = task.wall;
@@ -268,7 +275,7 @@ Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, double farth
   constexpr int kRounds = 3;
   for (int round = 1; round <= kRounds; ++round) {
     if (deliverable.wall < roomy || round > 1) wall += roomy - task.wall;
-    const std::optional<CavityContour> found =
+    std::optional<CavityContour> found =
         wall <= deliverable.wall ? cavityContour(deliverable, quadric, isWorthIt)
                                  : cavityContour(withWall(deliverable, wall), quadric, isWorthIt);
     if (!found || found->contour.mesh.faces.rows() == 0) {
@@ -280,7 +287,7 @@ Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, double farth
       break;
     }
     if (!found->isFinished) return {std::move(rough), false};
-    result = polished(task, quadric, wall, *found);
+    result = polished(task, quadric, wall, *std::move(found));
     result.effort.rounds = round;
     if (result.inspection.isClean()) break;
   }

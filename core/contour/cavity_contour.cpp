@@ -165,9 +165,9 @@ std::optional<CavityContour> cavityContour(const OpenedSet& set,
   // What the cubes are too large for becomes solid.
   constexpr int kRounds = 9;
   for (int round = 0; round < kRounds; ++round) {
-    const Contour raw = withoutLooseParts(dualContour(lattice), leastVolume);
+    Contour raw = withoutLooseParts(dualContour(lattice), leastVolume);
     if (raw.mesh.faces.rows() == 0) return CavityContour{{}, set.edge, fresh};
-    Contour contour = smoothed(region, set.edge, raw);
+    Contour contour = smoothed(region, set.edge, std::move(raw));
     ClearanceQuery clearance(set.surface);
     keepWallNearly(clearance, set.wall, contour.mesh);
     if (isWorthIt && !isWorthIt(contour))

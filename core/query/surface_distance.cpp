@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace massprops {
 namespace {
@@ -169,8 +170,13 @@ public:
   const std::vector<int>& nearestFace() const { return nearestFace_; }
   const Vector& vertexBounds() const { return vertexBounds_; }
   const Vector& faceBounds() const { return faceBounds_; }
-  ClearanceQuery::Memory memory() const {
-    return {x_, nearestFace_, faces_, vertexBounds_, faceBounds_};
+  /// In the place of what was remembered so far. Last of all.
+  void remember(ClearanceQuery::Memory& memory) && {
+    memory.vertices = x_;
+    memory.faces = faces_;
+    memory.nearestFace = std::move(nearestFace_);
+    memory.vertexBounds = std::move(vertexBounds_);
+    memory.faceBounds = std::move(faceBounds_);
   }
 
 private:
@@ -280,7 +286,7 @@ Vector ClearanceQuery::faceDistancesAtMost(const Points& vertices, const Faces& 
   measurement.measureVertices();
   measurement.measureNearFaces();
   Vector atMost = measurement.faceBounds();
-  memory_ = measurement.memory();
+  std::move(measurement).remember(memory_);
   memory_.faceBounds.setZero();
   return atMost;
 }
@@ -290,7 +296,7 @@ const Vector& ClearanceQuery::measureFaces(const Points& vertices, const Faces& 
   Measurement measurement(vertices, faces, other_, horizon, memory_);
   measurement.measureVertices();
   measurement.measureFaces();
-  memory_ = measurement.memory();
+  std::move(measurement).remember(memory_);
   return memory_.faceBounds;
 }
 
@@ -311,7 +317,7 @@ Clearance ClearanceQuery::measure(const Points& vertices, const Faces& faces, do
   result.least = result.distance.minCoeff();
   result.nearestFace = measurement.nearestFace();
   result.vertexBounds = measurement.vertexBounds();
-  memory_ = measurement.memory();
+  std::move(measurement).remember(memory_);
   return result;
 }
 
