@@ -304,8 +304,10 @@ std::string reasonForBestPossible(const Options& options, const OptimalBound& bo
   const Body after = isFound ? hollowBody(found.task, found.cavity) : before;
   const double gap = gapToBound(bound, before, after);
   // With a weight on smoothness it is far by intention.
-  if (gap > kFar && options.weights.smoothness == 0.0)
-    return "the offset surface leaves " + percent(gap) + " % of what is possible";
+  if (options.weights.smoothness == 0.0) {
+    if (gap > kFar) return "the offset surface leaves " + percent(gap) + " % of what is possible";
+    if (found.cavity.roughEnds > 0) return "ends of the offset surface stay pleated";
+  }
   const bool isSolved =
       after.violation <= kFeasibility && found.verdictAfter->isReached(after.mass);
   return isSolved || gap == 0.0 ? "" : "the offset surface misses the goal";

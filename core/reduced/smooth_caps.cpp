@@ -86,6 +86,7 @@ public:
   CavityResult run();
 
 private:
+  int roughEnds() const;
   /// What has not been inspected yet.
   struct Stretched {
     std::unique_ptr<const Skin> skin; ///< at the caps
@@ -147,13 +148,22 @@ CavityResult Capping::run() {
     result->inspection = inspect(result->inner, result->cavity.faces, outer(), task_.wall, false,
                                  LookFirst::ForAll, found_.clearance.get(), task_.stored);
     if (result->inspection.isClean()) {
-      if (isWorthIt(*result)) return *result;
+      if (isWorthIt(*result)) {
+        result->roughEnds = roughEnds();
+        return *std::move(result);
+      }
       giveUpCostliest(*result, rough.end);
     } else if (!giveUp(*result, rough.end)) {
       break;
     }
   }
-  return found_;
+  CavityResult rough = found_;
+  rough.roughEnds = ends_.count;
+  return rough;
+}
+
+int Capping::roughEnds() const {
+  return static_cast<int>(std::count(isSmooth_.begin(), isSmooth_.end(), 0));
 }
 
 /// Without fans at smooth ends, the holes closed by triangles that are not smooth yet.

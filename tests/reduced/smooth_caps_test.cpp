@@ -73,5 +73,16 @@ TEST(SmoothCapsOfAPolycube, CloseTheEndsThatCostLittleWhereOthersStayRough) {
   EXPECT_GE(separation(result.inner, body).least, wall);
 }
 
+// The offset surface's halves would have to bulge to stay in balance.
+TEST(EndsThatStayPleated, AreNotDeliveredWhereTheBestPossibleCavityServesMore) {
+  Options options;
+  options.goal = GoalKind::YoYo;
+  const Result result = optimizeMassProperties(sampleMesh("uneven_yo_yo"), options);
+  EXPECT_EQ(std::get<std::string>(result.report.at("cavity_shape")),
+            "best possible: ends of the offset surface stay pleated");
+  EXPECT_LT(std::get<double>(result.report.at("gap_to_limit")), 0.002);
+  EXPECT_LT(shareOfSharpEdges(result.inner, 60.0), 0.02);
+}
+
 } // namespace
 } // namespace massprops::testing
