@@ -61,7 +61,7 @@ CavityResult resultOf(const CavityTask& task, const TriangleMesh& mesh) {
 
 /// Where the vertices of a contour might go, and the body with the cavity that they make.
 struct Candidate {
-  Points vertices;
+  Points vertices; ///< none: they stay where they are
   Body body;
 };
 
@@ -74,8 +74,7 @@ public:
   int evaluations() const { return evaluations_; }
   double secondsInspection() const { return secondsInspection_; }
 
-  /// Where they are.
-  Candidate unmoved() const { return candidateOf(found_); }
+  Candidate unmoved() const { return {Points(0, 3), bodyOf(found_)}; }
 
   /// With creases that move, which leave the walls' surface a little, and the constraints with it.
   /// Empty: the wall is not kept.
@@ -84,13 +83,13 @@ public:
     evaluations_ += polish(task_, quadric_, Moving::CutAndCreases, edge_, {}, contour).evaluations;
     if (!keepWall(clearance_, wall, contour.mesh).empty()) return std::nullopt;
     adjust({}, contour);
-    return candidateOf(contour);
+    return candidateOf(std::move(contour));
   }
 
   Candidate adjusted() {
     Contour contour = found_;
     adjust({}, contour);
-    return candidateOf(contour);
+    return candidateOf(std::move(contour));
   }
 
   /// Inspected. Vertices whose faces do not pass, or have become slivers, go back to where they
@@ -98,7 +97,7 @@ public:
   CavityResult passed(Points vertices) {
     constexpr int kRounds = 5;
     Contour contour = found_;
-    contour.mesh.vertices = std::move(vertices);
+    if (vertices.rows() > 0) contour.mesh.vertices = std::move(vertices);
     std::vector<char> held(static_cast<std::size_t>(contour.mesh.vertices.rows()), 0);
     std::optional<CavityResult> clean; // but for slivers
     const auto isFeasible = [&](const CavityResult& result) {
@@ -117,8 +116,13 @@ public:
   }
 
 private:
-  Candidate candidateOf(const Contour& contour) const {
-    return {contour.mesh.vertices, hollowBody(task_, resultOf(task_, contour.mesh))};
+  Body bodyOf(const Contour& contour) const {
+    return hollowBody(task_, resultOf(task_, contour.mesh));
+  }
+
+  Candidate candidateOf(Contour contour) const {
+    const Body body = bodyOf(contour);
+    return {std::move(contour.mesh.vertices), body};
   }
 
   void adjust(const std::vector<char>& held, Contour& contour) {

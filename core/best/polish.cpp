@@ -44,17 +44,18 @@ Polished polish(const CavityTask& task, const LayeredQuadric& quadric, Moving mo
   const Region region{task.surface, task.wall, nullptr, quadric, edge};
   const Points directions = directionsOf(region, moving, held, contour);
   const Moments outer = task.model.solidMoments + task.model.attached;
-  Points vertices = contour.mesh.vertices;
+  Points& vertices = contour.mesh.vertices;
   DisplacementTask displacement{
       task.goal,          task.weights, task.model.fillings, outer, task.model.solidMoments[0],
       contour.mesh.faces, directions,   kFarthest * edge};
   displacement.raisesLevel = true;
-  const Displaced done = displace(displacement, vertices);
   if (moving == Moving::CutAlone) {
-    contour.mesh.vertices = std::move(vertices);
-  } else {
-    moveSoundly(vertices, contour.mesh.faces, contour.mesh.vertices);
+    const Displaced done = displace(displacement, vertices);
+    return {done.evaluations, done.violation, done.isFarthest};
   }
+  Points targets = vertices;
+  const Displaced done = displace(displacement, targets);
+  moveSoundly(targets, contour.mesh.faces, vertices);
   return {done.evaluations, done.violation, done.isFarthest};
 }
 

@@ -93,9 +93,11 @@ void putBackCrossing(const Points& before, Contour& contour) {
 /// Few triangles, none of them a sliver, on the border but for vertices that would have to cross
 /// something on their way there.
 Contour smoothed(const Region& region, double edge, Contour contour) {
-  const Points raw = contour.mesh.vertices;
-  project(region, edge, contour);
-  putBackCrossing(raw, contour);
+  {
+    const Points raw = contour.mesh.vertices;
+    project(region, edge, contour);
+    putBackCrossing(raw, contour);
+  }
   removeSlivers(kSliver, contour);
   contour = thinnedOut(contour, kFlat * region.wall);
   contour = withFewTriangles(region.wall, std::move(contour));
@@ -161,11 +163,20 @@ std::optional<CavityContour> cavityContour(const OpenedSet& set,
   constexpr double kMore = 3e-4;
   const Region region{set.surface,   (1.0 + kMore) * set.wall, &*set.deep, quadric, set.edge,
                       set.fill.get()};
-  BorderLattice lattice = borderLattice(region, set.edge);
+  std::optional<BorderLattice> lattice;
   // What the cubes are too large for becomes solid.
+  std::vector<std::vector<Vec3>> tooSmall;
   constexpr int kRounds = 9;
   for (int round = 0; round < kRounds; ++round) {
-    Contour raw = withoutLooseParts(dualContour(lattice), leastVolume);
+    if (!lattice) {
+      lattice = borderLattice(region, set.edge);
+      for (const std::vector<Vec3>& points : tooSmall) takeOut(points, *lattice);
+    }
+    Contour raw = dualContour(*lattice);
+    // A large one takes as much memory as all that follows, and is seldom needed again.
+    constexpr std::size_t kLarge = 200000; // corners
+    if (lattice->corners.size() > kLarge) lattice.reset();
+    raw = withoutLooseParts(raw, leastVolume);
     if (raw.mesh.faces.rows() == 0) return CavityContour{{}, set.edge, fresh};
     Contour contour = smoothed(region, set.edge, std::move(raw));
     ClearanceQuery clearance(set.surface);
@@ -175,8 +186,10 @@ std::optional<CavityContour> cavityContour(const OpenedSet& set,
     const Troubles troubles = troublesLeft(clearance, set.wall, contour);
     if (troubles.areNone())
       return CavityContour{std::move(contour), set.edge, std::move(clearance)};
-    takeOut(troubles.thin, lattice);
-    takeOut(troubles.crossing, lattice);
+    for (const std::vector<Vec3>& points : {troubles.thin, troubles.crossing}) {
+      if (lattice) takeOut(points, *lattice);
+      tooSmall.push_back(points);
+    }
   }
   return {};
 }

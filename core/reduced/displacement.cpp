@@ -4,6 +4,7 @@
 #include "core/base/tolerances.h"
 #include "core/goals/level_problem.h"
 #include "core/goals/objective.h"
+#include "core/mesh/components.h"
 #include "core/optimum/layered_quadric.h"
 
 #include <algorithm>
@@ -14,19 +15,27 @@
 namespace massprops {
 namespace {
 
-/// Functions of unit mean square over the vertices that move, orthogonal there: of those that are
-/// given or else of the terms of a quadric, or of a plane. n×r, 0 for those that stay.
-RowMatrix functionsOf(const DisplacementTask& task, const Points& vertices) {
+/// The rows of the vertices of a part.
+template <class Rows>
+Rows rowsOf(const Rows& all, const Submesh& part) {
+  return all(part.vertexOf, Eigen::all);
+}
+
+/// Functions of unit mean square over the vertices of a part that move, orthogonal there: of those
+/// that are given or else of the terms of a quadric, or of a plane. m×r, 0 for those that stay.
+RowMatrix functionsOn(const Submesh& part, const DisplacementTask& task) {
+  const Points& vertices = part.mesh.vertices;
   const bool isGiven = task.functions.size() > 0;
   const Eigen::Index terms = isGiven ? task.functions.cols() : task.goal.usesInertia() ? 10 : 4;
   RowMatrix values = RowMatrix::Zero(vertices.rows(), terms);
   double count = 0.0;
-  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
+  for (Eigen::Index i = 0; i < vertices.rows(); ++i) {
+    const int v = part.vertexOf[static_cast<std::size_t>(i)];
     if (task.directions.row(v).isZero(0.0)) continue;
     if (isGiven) {
-      values.row(v) = task.functions.row(v);
+      values.row(i) = task.functions.row(v);
     } else {
-      values.row(v) = monomials(vertices.row(v).transpose()).head(terms).transpose();
+      values.row(i) = monomials(vertices.row(i).transpose()).head(terms).transpose();
     }
     count += 1.0;
   }
@@ -40,31 +49,35 @@ RowMatrix functionsOf(const DisplacementTask& task, const Points& vertices) {
          spectrum.values.tail(rank).cwiseInverse().cwiseSqrt().asDiagonal();
 }
 
-/// The faces with a vertex that moves, or the others.
-Faces facesThat(bool move, const DisplacementTask& task) {
-  Faces result(task.faces.rows(), 3);
-  Eigen::Index count = 0;
+/// With a vertex that moves.
+Faces movingFaces(const DisplacementTask& task) {
+  std::vector<int> moving;
   for (Eigen::Index f = 0; f < task.faces.rows(); ++f) {
     const auto corners = task.faces.row(f);
-    const bool moves = std::any_of(corners.begin(), corners.end(),
-                                   [&](int v) { return !task.directions.row(v).isZero(0.0); });
-    if (moves == move) result.row(count++) = corners;
+    if (std::any_of(corners.begin(), corners.end(),
+                    [&](int v) { return !task.directions.row(v).isZero(0.0); }))
+      moving.push_back(static_cast<int>(f));
   }
-  return result.topRows(count);
+  return task.faces(moving, Eigen::all);
 }
 
 } // namespace
 
 Displaced displace(const DisplacementTask& task, Points& vertices) {
-  const Points start = vertices;
   const bool usesInertia = task.goal.usesInertia();
   constexpr double kUnit = 0.05; // of the farthest: what the solver's variables are 1 for
-  const RowMatrix functions = kUnit * task.farthest * functionsOf(task, start);
+  // Of a large cavity often little moves.
+  const Submesh part = submesh(vertices, movingFaces(task));
+  const RowMatrix functions = kUnit * task.farthest * functionsOn(part, task);
   if (functions.size() == 0) return {};
-  const Faces moving = facesThat(true, task);
-  const Moments atRest = moments(start, facesThat(false, task), usesInertia);
+  const Points directions = rowsOf(task.directions, part);
+  const Moments atRest = moments(vertices, task.faces, usesInertia) -
+                         moments(part.mesh.vertices, part.mesh.faces, usesInertia);
   const auto displaced = [&](const Vector& q) {
-    return Points(start + (functions * q).asDiagonal() * task.directions);
+    return Points(part.mesh.vertices + (functions * q).asDiagonal() * directions);
+  };
+  const auto put = [&](const Points& moved, Points& whole) {
+    whole(part.vertexOf, Eigen::all) = moved;
   };
   const BodyState outer{task.outer, MomentJacobian::Zero(10, functions.cols())};
   const auto withJacobian = [&](const MomentsWithRates& both) {
@@ -80,13 +93,17 @@ Displaced displace(const DisplacementTask& task, Points& vertices) {
   };
   const auto bodyAt = [&](const Vector& q) {
     const Points moved = displaced(q);
-    BodyState cavity = withJacobian(momentsWithRates(moved, moving, task.directions, usesInertia));
+    BodyState cavity =
+        withJacobian(momentsWithRates(moved, part.mesh.faces, directions, usesInertia));
     cavity.mass += atRest;
-    return Evaluated{bodyStates(task.fillings, outer, cavity,
-                                [&](double level) {
-                                  return withJacobian(momentsBelowWithRates(
-                                      moved, task.faces, task.directions, level));
-                                }),
+    const auto contents = [&](double level) {
+      Points whole = vertices;
+      put(moved, whole);
+      MomentsWithRates below = momentsBelowWithRates(whole, task.faces, task.directions, level);
+      below.rates = rowsOf(below.rates, part);
+      return withJacobian(below);
+    };
+    return Evaluated{bodyStates(task.fillings, outer, cavity, contents),
                      outer.mass[0] / task.solidVolume - cavity.mass[0] / task.solidVolume,
                      -cavity.jacobian.row(0).transpose() / task.solidVolume};
   };
@@ -119,7 +136,7 @@ Displaced displace(const DisplacementTask& task, Points& vertices) {
     if (!levels || !result.x.head(count).isZero(0.0)) break;
   }
   if (levels && result.x[count] <= 0.0) result.x.setZero(); // no higher than it was
-  vertices = displaced(result.x.head(count));
+  put(displaced(result.x.head(count)), vertices);
   constexpr double kNearly = 0.99;
   const bool isFarthest = result.x.head(count).cwiseAbs().maxCoeff() >= kNearly * options.range;
   return {evaluations, levels ? 0.0 : result.violation, isFarthest};
