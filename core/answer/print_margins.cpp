@@ -1,5 +1,6 @@
 #include "core/answer/print_margins.h"
 
+#include "core/base/angles.h"
 #include "core/base/triangle.h"
 #include "core/optimum/admissible_cells.h"
 #include "core/optimum/parts_cut.h"
@@ -78,6 +79,41 @@ double leastInfill(const std::function<double(int)>& infillInCells) {
   return infill;
 }
 
+/// Moments of a surface whose vertices go by t along their directions, −most ≤ t ≤ most: in t
+/// polynomials of degree 5 at most, so that six surfaces tell those of all.
+class DisplacedMoments {
+public:
+  DisplacedMoments(const Points& vertices, const Faces& faces, const Points& directions,
+                   double most)
+      : most_(most) {
+    Eigen::Matrix<double, kTerms, kTerms> powers;
+    Eigen::Matrix<double, kTerms, 10> values;
+    for (int i = 0; i < kTerms; ++i) {
+      const double t = std::cos(kPi * (i + 0.5) / kTerms); // Chebyshev's
+      powers.row(i) = powersOf(t);
+      values.row(i) = moments(vertices + most * t * directions, faces).transpose();
+    }
+    coefficients_ = powers.partialPivLu().solve(values);
+  }
+
+  Moments at(double displacement) const {
+    return (powersOf(displacement / most_) * coefficients_).transpose();
+  }
+
+private:
+  static constexpr int kTerms = 6;
+
+  static Eigen::Matrix<double, 1, kTerms> powersOf(double t) {
+    Eigen::Matrix<double, 1, kTerms> powers;
+    powers[0] = 1.0;
+    for (int i = 1; i < kTerms; ++i) powers[i] = t * powers[i - 1];
+    return powers;
+  }
+
+  double most_;
+  Eigen::Matrix<double, kTerms, 10> coefficients_;
+};
+
 /// Vertices of the cavity that lie farthest in directions all round: linear functionals, and with
 /// them the harm that a lump does, are greatest at one of these, up to the directions between.
 std::vector<Vec3> extremePoints(const CavityResult& cavity) {
@@ -124,11 +160,11 @@ PrintMargins printMargins(const CavityTask& task, const CavityResult& cavity,
 
   const Moments inner = moments(cavity.inner, faces);
   const double filled = 1.0 - task.model.fillings.front().density;
-  const Points normals = vertexNormals(cavity.inner, faces);
+  const DisplacedMoments displaced(cavity.inner, faces, vertexNormals(cavity.inner, faces),
+                                   task.wall);
   margins.wall = greatestDeviation(task.wall, [&](double error) {
     const auto holds = [&](double displacement) {
-      const Moments displaced = moments(cavity.inner + displacement * normals, faces);
-      return verdict.isReached(body - filled * (displaced - inner));
+      return verdict.isReached(body - filled * (displaced.at(displacement) - inner));
     };
     return holds(error) && holds(-error);
   });

@@ -26,6 +26,20 @@ namespace {
 
 constexpr double kLeastEdge = 1.0 / 1000.0; // of cubes
 
+/// Next to very many triangles everything takes long, most of all cubes: there by so much more may
+/// be left of what is possible as somewhat larger ones leave.
+double leeway(const TriangleTree& surface) {
+  constexpr Eigen::Index kVeryMany = 500000;
+  constexpr double kMore = 1.25;
+  return surface.faces().rows() > kVeryMany ? kMore : 1.0;
+}
+
+constexpr double kPower = 1.3; // of the cubes' edge, that the gap goes with
+
+double leewayOfEdge(const TriangleTree& surface) {
+  return std::pow(leeway(surface), 1.0 / kPower);
+}
+
 Points delivered(const CavityTask& task, const Points& working) {
   return task.deliverable ? task.deliverable(working) : working;
 }
@@ -329,11 +343,10 @@ bool isCut(const CavityTask& task) {
 double edgeThatWillDo(const CavityTask& task, const OpenedSet& deliverable) {
   constexpr double kLarger = 2.0;
   constexpr double kWanted = 0.010; // before all is polished
-  constexpr double kPower = 1.3;    // of the edge, that the gap goes with
   constexpr double kUncut = 1.2;
   // Ceilings that shall carry themselves ask for more.
   if (deliverable.fill) return deliverable.edge;
-  if (!isCut(task)) return kUncut * deliverable.edge;
+  if (!isCut(task)) return kUncut * leewayOfEdge(task.surface) * deliverable.edge;
   OpenedSet coarse = deliverable;
   coarse.edge *= kLarger;
   double gap = 0.0;
@@ -345,8 +358,11 @@ double edgeThatWillDo(const CavityTask& task, const OpenedSet& deliverable) {
   if (gap <= 0.0) return deliverable.edge;
   // In steps: the last digits of the gap depend on where the model lies.
   constexpr double kSteps = 4.0; // that double the edge
-  const double steps = kSteps * std::log2(kLarger * std::pow(kWanted / gap, 1.0 / kPower));
-  const double factor = std::exp2(std::round(std::clamp(steps, -2.0, 1.0)) / kSteps);
+  const double wanted = kLarger * std::pow(kWanted / gap, 1.0 / kPower);
+  const double more = leewayOfEdge(task.surface);
+  const double steps = kSteps * std::log2(more * wanted);
+  const double most = 1.0 + std::round(kSteps * std::log2(more));
+  const double factor = std::exp2(std::round(std::clamp(steps, -2.0, most)) / kSteps);
   return std::max(factor * deliverable.edge, kLeastEdge);
 }
 
@@ -355,12 +371,13 @@ CavityResult inFineCubes(const CavityTask& task, OpenedSet deliverable) {
   constexpr std::array<double, 2> kEnough{0.018, 0.025};        // of what is possible is left
   constexpr std::array<double, 2> kRoughEnough{0.0135, 0.0275}; // before all is polished
   constexpr double kWanted = 0.01;
+  const double more = leeway(task.surface);
   deliverable.edge = edgeThatWillDo(task, deliverable);
-  Made best = cavityOf(task, deliverable, kRoughEnough[0]);
+  Made best = cavityOf(task, deliverable, more * kRoughEnough[0]);
   double edgeOfBest = deliverable.edge;
   for (std::size_t i = 0; i < kEnough.size(); ++i) {
     const double gap = gapOf(task, best.result);
-    if (gap <= kEnough[i] || best.result.status == CavityStatus::NoRoom) break;
+    if (gap <= more * kEnough[i] || best.result.status == CavityStatus::NoRoom) break;
     deliverable.edge *= std::clamp(std::sqrt(kWanted / gap), 0.5, 0.8);
     if (deliverable.edge < kLeastEdge) break;
     const bool isLast = i + 1 == kEnough.size();
@@ -392,9 +409,10 @@ std::optional<CavityResult> uniformlyWalled(const CavityTask& task, const Opened
   const double tolerance = 0.1 * kFeasibility * solid / std::abs(perVolume);
   std::optional<TriangleMesh> cavity;
   constexpr std::array<double, 3> kCoarser{1.0, 1.5, 2.25};
+  const double edge = leewayOfEdge(task.surface) * set.edge;
   for (const double factor : kCoarser) {
     std::optional<TriangleMesh> found = cavityOfVolume(
-        {task.surface, volume, tolerance, wallBeforeRounding(task), set.ball, factor * set.edge,
+        {task.surface, volume, tolerance, wallBeforeRounding(task), set.ball, factor * edge,
          [&](const Points& points) { return delivered(task, points); }});
     if (!found) break;
     cavity = std::move(found);
