@@ -80,6 +80,13 @@ constexpr double kSpeck = 8.0;
 /// Of what the cavity gains over the solid body: so much a smooth end may cost.
 constexpr double kMostLoss = 0.02;
 
+/// Of the constraints; where the cavity cannot keep them, a little more than its own.
+double mostViolation(const CavityTask& task, const Body& found) {
+  if (found.violation <= kFeasibility) return kFeasibility;
+  const double gain = inputBody(task).violation - found.violation;
+  return found.violation + kMostLoss * std::max(gain, 0.0);
+}
+
 class Capping {
 public:
   Capping(const CavityTask& task, const CavityResult& found);
@@ -101,12 +108,12 @@ private:
 
   const TriangleTree& outer() const { return moved_ ? *moved_ : task_.surface; }
   Capped opened() const;
-  std::optional<Stretched> stretched(Capped capped) const;
-  std::optional<CavityResult> closed(const Capped& capped) const;
+  std::vector<Stretched> stretched(Capped capped) const;
+  std::optional<CavityResult> closed(const Stretched& caps, double farthest) const;
   void dropSpecks(double leastVolume, Capped& capped) const;
   CavityResult resultOf(const Capped& capped) const;
   bool keepsConstraints(const CavityResult& result) const;
-  bool press(const Skin& skin, const Marks& atWall, CavityResult& result) const;
+  bool press(const Skin& skin, double farthest, const Marks& atWall, CavityResult& result) const;
   bool keepsVolume(const CavityResult& result) const;
   bool isWorthIt(const CavityResult& result) const;
   bool giveUp(const CavityResult& result, const std::vector<int>& end);
@@ -121,6 +128,7 @@ private:
   std::unique_ptr<const TriangleTree> moved_; ///< null: the outer surface rests
   std::unique_ptr<const Goal> movedGoal_;
   Moments outerMass_;
+  double mostViolation_;
   VertexAdjacency neighbours_;
   VertexCorners corners_;
   CavityEnds ends_;
@@ -134,26 +142,37 @@ Capping::Capping(const CavityTask& task, const CavityResult& found)
                                     found.outer, task.surface.faces(), TriangleTree::Order::Spatial)
                               : nullptr),
       movedGoal_(task.goalFor ? task.goalFor(found.outer) : nullptr),
-      outerMass_(outerMoments(task, found)), neighbours_(vertexAdjacency(n_, faces_)),
-      corners_(vertexCorners(n_, faces_)), ends_(cavityEnds(task, found, neighbours_)),
-      isSmooth_(at(ends_.count), 1) {}
+      outerMass_(outerMoments(task, found)),
+      mostViolation_(mostViolation(task, hollowBody(task, found))),
+      neighbours_(vertexAdjacency(n_, faces_)), corners_(vertexCorners(n_, faces_)),
+      ends_(cavityEnds(task, found, neighbours_)), isSmooth_(at(ends_.count), 1) {}
 
 CavityResult Capping::run() {
   constexpr int kAttempts = 6;
+  constexpr double kFarthest[] = {4.0, 2.0}; // walls
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     if (std::find(isSmooth_.begin(), isSmooth_.end(), 1) == isSmooth_.end()) break;
     const Capped rough = opened();
-    std::optional<CavityResult> result = closed(rough);
-    if (!result) break;
-    result->inspection = inspect(result->inner, result->cavity.faces, outer(), task_.wall, false,
-                                 LookFirst::ForAll, found_.clearance.get(), task_.stored);
-    if (result->inspection.isClean()) {
-      if (isWorthIt(*result)) {
-        result->roughEnds = roughEnds();
-        return *std::move(result);
+    const std::vector<Stretched> all = stretched(rough);
+    std::optional<CavityResult> first; // of those that are not good enough
+    for (const double farthest : kFarthest) {
+      for (const Stretched& caps : all) {
+        std::optional<CavityResult> result = closed(caps, farthest * task_.wall);
+        if (!result) continue;
+        result->inspection =
+            inspect(result->inner, result->cavity.faces, outer(), task_.wall, false,
+                    LookFirst::ForAll, found_.clearance.get(), task_.stored);
+        if (result->inspection.isClean() && isWorthIt(*result)) {
+          result->roughEnds = roughEnds();
+          return *std::move(result);
+        }
+        if (!first) first = std::move(result);
       }
-      giveUpCostliest(*result, rough.end);
-    } else if (!giveUp(*result, rough.end)) {
+    }
+    if (!first) break;
+    if (first->inspection.isClean()) {
+      giveUpCostliest(*first, rough.end);
+    } else if (!giveUp(*first, rough.end)) {
       break;
     }
   }
@@ -218,14 +237,13 @@ Capped Capping::opened() const {
   return result;
 }
 
-/// Smooth caps, of several as stiff the ones that serve the goal best; empty where there are none,
-/// or no cavity.
-std::optional<Capping::Stretched> Capping::stretched(Capped capped) const {
+/// Smooth caps of several stiffnesses, those first that serve the goal best.
+std::vector<Capping::Stretched> Capping::stretched(Capped capped) const {
   constexpr double kStiffness[] = {1.0, 2.0, 4.0}; // walls
   dropSpecks(0.0, capped);
   Marks isFree(at(capped.mesh.vertices.rows()), 1);
   std::fill_n(isFree.begin(), n_, 0);
-  std::optional<Stretched> best;
+  std::vector<Stretched> all;
   for (const double stiffness : kStiffness) {
     auto skin = std::make_unique<const Skin>(capped.mesh.vertices, capped.mesh.faces, isFree,
                                              stiffness * task_.wall);
@@ -235,26 +253,26 @@ std::optional<Capping::Stretched> Capping::stretched(Capped capped) const {
     if (!smooth.mesh.vertices.allFinite()) continue;
     dropSpecks(kSpeck * task_.wall * task_.wall * task_.wall, smooth);
     if (smooth.mesh.faces.rows() == 0) continue;
-    CavityResult result = resultOf(smooth);
-    if (best && !servesBetter(task_, result, best->result)) continue;
-    best = Stretched{std::move(skin), std::move(result)};
+    all.push_back({std::move(skin), resultOf(smooth)});
   }
-  return best;
+  std::stable_sort(all.begin(), all.end(), [&](const Stretched& a, const Stretched& b) {
+    return servesBetter(task_, a.result, b.result);
+  });
+  return all;
 }
 
-/// Caps that keep the wall and with which the constraints hold, not inspected yet; empty where
-/// there are none.
-std::optional<CavityResult> Capping::closed(const Capped& capped) const {
+/// The caps as they keep the wall and the constraints hold, not inspected yet; empty where they do
+/// not. `farthest`: that they are pressed, in the mean square.
+std::optional<CavityResult> Capping::closed(const Stretched& caps, double farthest) const {
   constexpr int kRounds = 6;
-  std::optional<Stretched> caps = stretched(capped);
-  if (!caps) return std::nullopt;
-  CavityResult& result = caps->result;
+  CavityResult result = caps.result;
   ClearanceQuery clearance(outer());
   Marks rests(at(result.inner.rows()), 0); // what keeps the wall already
   std::fill_n(rests.begin(), n_, 1);
   Marks atWall(at(result.inner.rows()), 0);
   for (int round = 0; round < kRounds; ++round) {
-    if (!keepsConstraints(result) && !press(*caps->skin, atWall, result)) return std::nullopt;
+    if (!keepsConstraints(result) && !press(*caps.skin, farthest, atWall, result))
+      return std::nullopt;
     TriangleMesh mesh{result.inner, result.cavity.faces};
     const bool isThin = !keepWall(clearance, kBeyondWall * task_.wall, mesh, rests).empty();
     if (mesh.vertices == result.inner) break;
@@ -265,7 +283,7 @@ std::optional<CavityResult> Capping::closed(const Capped& capped) const {
     if (isThin) break; // the ends where it is are given up: more rounds are slow and in vain
   }
   result.inner = task_.deliverable(result.inner);
-  return std::move(result);
+  return result;
 }
 
 /// Leaves out components that nothing holds, and those of less volume.
@@ -296,14 +314,14 @@ CavityResult Capping::resultOf(const Capped& capped) const {
 
 /// With room for rounding.
 bool Capping::keepsConstraints(const CavityResult& result) const {
-  return task_.weights.constraints <= 0.0 ||
-         hollowBody(task_, result).violation <= 0.1 * kFeasibility;
+  const double most = mostViolation_ > kFeasibility ? mostViolation_ : 0.1 * kFeasibility;
+  return task_.weights.constraints <= 0.0 || hollowBody(task_, result).violation <= most;
 }
 
 /// Presses the caps in and out until the constraints hold; false where they do not. `atWall`:
 /// vertices that must not move.
-bool Capping::press(const Skin& skin, const Marks& atWall, CavityResult& result) const {
-  constexpr double kFarthest = 4.0; // walls
+bool Capping::press(const Skin& skin, double farthest, const Marks& atWall,
+                    CavityResult& result) const {
   const Eigen::Index terms = task_.goal.usesInertia() ? 10 : 4;
   RowMatrix pressures = RowMatrix::Zero(result.inner.rows(), terms);
   Points directions = vertexNormals(result.inner, result.cavity.faces);
@@ -314,11 +332,11 @@ bool Capping::press(const Skin& skin, const Marks& atWall, CavityResult& result)
   }
   const Displaced done =
       displace({movedGoal_ ? *movedGoal_ : task_.goal, task_.weights, task_.model.fillings,
-                outerMass_, task_.model.solidMoments[0], result.cavity.faces, directions,
-                kFarthest * task_.wall, skin.deflections(pressures)},
+                outerMass_, task_.model.solidMoments[0], result.cavity.faces, directions, farthest,
+                skin.deflections(pressures)},
                result.inner);
   result.effort.evaluations += done.evaluations;
-  return done.evaluations > 0 && done.violation <= kFeasibility;
+  return done.evaluations > 0 && done.violation <= mostViolation_;
 }
 
 /// As `greatestVolume` has it.
@@ -344,8 +362,7 @@ bool Capping::isWorthIt(const CavityResult& result) const {
   if (!keepsVolume(result)) return false;
   const Body before = hollowBody(task_, found_);
   const Body after = hollowBody(task_, result);
-  if (task_.weights.constraints > 0.0 && after.violation > std::max(kFeasibility, before.violation))
-    return false;
+  if (task_.weights.constraints > 0.0 && after.violation > mostViolation_) return false;
   const Loss loss = lossOf(before, after);
   return loss.is <= loss.most;
 }

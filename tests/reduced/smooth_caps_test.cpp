@@ -52,6 +52,8 @@ INSTANTIATE_TEST_SUITE_P(Samples, SmoothCaps,
                          ::testing::Values(End{"toy_dinosaur", GoalKind::Stand, 0.005},
                                            End{"box_on_corner", GoalKind::Stand, 0.001},
                                            End{"bath_duck", GoalKind::Float, 0.003},
+                                           End{"bath_duck", GoalKind::Spin, 0.006},
+                                           End{"uneven_yo_yo", GoalKind::YoYo, 0.02},
                                            End{"hanging_fish", GoalKind::Hang, 0.01}));
 
 // The cavity of this body has ends that keep it in balance and ends that cost nothing.
@@ -73,14 +75,14 @@ TEST(SmoothCapsOfAPolycube, CloseTheEndsThatCostLittleWhereOthersStayRough) {
   EXPECT_GE(separation(result.inner, body).least, wall);
 }
 
-// The offset surface's halves would have to bulge to stay in balance.
+// Caps that balance this body cross the rest of its cavity.
 TEST(EndsThatStayPleated, AreNotDeliveredWhereTheBestPossibleCavityServesMore) {
   Options options;
-  options.goal = GoalKind::YoYo;
+  options.goal = GoalKind::Spin;
   const Result result = optimizeMassProperties(sampleMesh("uneven_yo_yo"), options);
   EXPECT_EQ(std::get<std::string>(result.report.at("cavity_shape")),
             "best possible: ends of the offset surface stay pleated");
-  EXPECT_LT(std::get<double>(result.report.at("gap_to_limit")), 0.002);
+  EXPECT_LT(std::get<double>(result.report.at("gap_to_limit")), 0.005);
   EXPECT_LT(shareOfSharpEdges(result.inner, 60.0), 0.02);
 }
 
