@@ -109,6 +109,7 @@ private:
   const TriangleTree& outer() const { return moved_ ? *moved_ : task_.surface; }
   Capped opened() const;
   std::vector<Stretched> stretched(Capped capped) const;
+  std::optional<CavityResult> inspected(const Capped& rough) const;
   std::optional<CavityResult> closed(const Stretched& caps, double farthest) const;
   void dropSpecks(double leastVolume, Capped& capped) const;
   CavityResult resultOf(const Capped& capped) const;
@@ -149,36 +150,46 @@ Capping::Capping(const CavityTask& task, const CavityResult& found)
 
 CavityResult Capping::run() {
   constexpr int kAttempts = 6;
-  constexpr double kFarthest[] = {4.0, 2.0}; // walls
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     if (std::find(isSmooth_.begin(), isSmooth_.end(), 1) == isSmooth_.end()) break;
     const Capped rough = opened();
-    const std::vector<Stretched> all = stretched(rough);
-    std::optional<CavityResult> first; // of those that are not good enough
-    for (const double farthest : kFarthest) {
-      for (const Stretched& caps : all) {
-        std::optional<CavityResult> result = closed(caps, farthest * task_.wall);
-        if (!result) continue;
-        result->inspection =
-            inspect(result->inner, result->cavity.faces, outer(), task_.wall, false,
-                    LookFirst::ForAll, found_.clearance.get(), task_.stored);
-        if (result->inspection.isClean() && isWorthIt(*result)) {
-          result->roughEnds = roughEnds();
-          return *std::move(result);
-        }
-        if (!first) first = std::move(result);
+    std::optional<CavityResult> result = inspected(rough);
+    if (!result) break;
+    if (result->inspection.isClean()) {
+      if (isWorthIt(*result)) {
+        result->roughEnds = roughEnds();
+        return *std::move(result);
       }
-    }
-    if (!first) break;
-    if (first->inspection.isClean()) {
-      giveUpCostliest(*first, rough.end);
-    } else if (!giveUp(*first, rough.end)) {
+      giveUpCostliest(*result, rough.end);
+    } else if (!giveUp(*result, rough.end)) {
       break;
     }
   }
   CavityResult rough = found_;
   rough.roughEnds = ends_.count;
   return rough;
+}
+
+/// With caps, the first that are clean and worth it, or else the first of all; empty: there are
+/// none.
+std::optional<CavityResult> Capping::inspected(const Capped& rough) const {
+  constexpr double kFarthest[] = {4.0, 2.0}; // walls
+  // Of many ends some always are faulty, and to try all again takes long.
+  constexpr int kFew = 8;
+  std::optional<CavityResult> first;
+  const std::vector<Stretched> all = stretched(rough);
+  for (const double farthest : kFarthest) {
+    for (const Stretched& caps : all) {
+      std::optional<CavityResult> result = closed(caps, farthest * task_.wall);
+      if (!result) continue;
+      result->inspection = inspect(result->inner, result->cavity.faces, outer(), task_.wall, false,
+                                   LookFirst::ForAll, found_.clearance.get(), task_.stored);
+      const bool isGood = result->inspection.isClean() && isWorthIt(*result);
+      if (isGood || ends_.count > kFew) return result;
+      if (!first) first = std::move(result);
+    }
+  }
+  return first;
 }
 
 int Capping::roughEnds() const {
