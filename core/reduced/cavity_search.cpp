@@ -500,8 +500,14 @@ double greatestVolume(const CavityTask& task) {
 }
 
 bool leavesRoom(const CavityTask& task) {
+  constexpr double kLeastShare = 0.003;
   const std::function<void(double)> silent;
-  return CavitySearch(task, 0.0, silent).run().status == CavityStatus::Found;
+  const CavityResult result = CavitySearch(task, 0.0, silent).run();
+  if (result.status != CavityStatus::Found) return false;
+  if (task.open != nullptr) return true;
+  // Of a crumb that is left here nothing may be left at a slightly thinner wall.
+  return signedVolume(result.inner, result.cavity.faces) >
+         kLeastShare * signedVolume(movingVertices(task), movingFaces(task));
 }
 
 } // namespace massprops

@@ -89,8 +89,9 @@ CavityResult searchCavity(const CavityTask& task, const std::function<void(doubl
 /// of it count less than once. \pre the outer surface rests and is closed
 double greatestVolume(const CavityTask& task);
 
-/// Whether a cavity with the least offsets passes inspection, without optimising anything. Where
-/// it does, `searchCavity` finds one, too.
+/// Whether a cavity with the least offsets passes inspection, without optimising anything, and
+/// takes more than three thousandths of a closed body's volume. Where it does, `searchCavity`
+/// finds one, too.
 bool leavesRoom(const CavityTask& task);
 
 } // namespace massprops
