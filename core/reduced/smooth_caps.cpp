@@ -100,6 +100,11 @@ private:
     CavityResult result;
   };
 
+  struct Inspected {
+    CavityResult result;
+    bool isGood; ///< clean and worth it
+  };
+
   /// Of what the goal gains.
   struct Loss {
     double is;
@@ -109,7 +114,7 @@ private:
   const TriangleTree& outer() const { return moved_ ? *moved_ : task_.surface; }
   Capped opened() const;
   std::vector<Stretched> stretched(Capped capped) const;
-  std::optional<CavityResult> inspected(const Capped& rough) const;
+  std::optional<Inspected> inspected(const Capped& rough) const;
   std::optional<CavityResult> closed(const Stretched& caps, double farthest) const;
   void dropSpecks(double leastVolume, Capped& capped) const;
   CavityResult resultOf(const Capped& capped) const;
@@ -153,15 +158,15 @@ CavityResult Capping::run() {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     if (std::find(isSmooth_.begin(), isSmooth_.end(), 1) == isSmooth_.end()) break;
     const Capped rough = opened();
-    std::optional<CavityResult> result = inspected(rough);
-    if (!result) break;
-    if (result->inspection.isClean()) {
-      if (isWorthIt(*result)) {
-        result->roughEnds = roughEnds();
-        return *std::move(result);
-      }
-      giveUpCostliest(*result, rough.end);
-    } else if (!giveUp(*result, rough.end)) {
+    std::optional<Inspected> tried = inspected(rough);
+    if (!tried) break;
+    if (tried->isGood) {
+      tried->result.roughEnds = roughEnds();
+      return std::move(tried->result);
+    }
+    if (tried->result.inspection.isClean()) {
+      giveUpCostliest(tried->result, rough.end);
+    } else if (!giveUp(tried->result, rough.end)) {
       break;
     }
   }
@@ -172,11 +177,11 @@ CavityResult Capping::run() {
 
 /// With caps, the first that are clean and worth it, or else the first of all; empty: there are
 /// none.
-std::optional<CavityResult> Capping::inspected(const Capped& rough) const {
+std::optional<Capping::Inspected> Capping::inspected(const Capped& rough) const {
   constexpr double kFarthest[] = {4.0, 2.0}; // walls
   // Of many ends some always are faulty, and to try all again takes long.
   constexpr int kFew = 8;
-  std::optional<CavityResult> first;
+  std::optional<Inspected> first;
   const std::vector<Stretched> all = stretched(rough);
   for (const double farthest : kFarthest) {
     for (const Stretched& caps : all) {
@@ -185,8 +190,9 @@ std::optional<CavityResult> Capping::inspected(const Capped& rough) const {
       result->inspection = inspect(result->inner, result->cavity.faces, outer(), task_.wall, false,
                                    LookFirst::ForAll, found_.clearance.get(), task_.stored);
       const bool isGood = result->inspection.isClean() && isWorthIt(*result);
-      if (isGood || ends_.count > kFew) return result;
-      if (!first) first = std::move(result);
+      Inspected tried{*std::move(result), isGood};
+      if (isGood || ends_.count > kFew) return tried;
+      if (!first) first = std::move(tried);
     }
   }
   return first;
