@@ -358,9 +358,9 @@ double edgeThatWillDo(const CavityTask& task, const OpenedSet& deliverable) {
   if (gap <= 0.0) return deliverable.edge;
   // In steps: the last digits of the gap depend on where the model lies.
   constexpr double kSteps = 4.0; // that double the edge
-  const double wanted = kLarger * std::pow(kWanted / gap, 1.0 / kPower);
+  const double ideal = kLarger * std::pow(kWanted / gap, 1.0 / kPower); // times the edge
   const double more = leewayOfEdge(task.surface);
-  const double steps = kSteps * std::log2(more * wanted);
+  const double steps = kSteps * std::log2(more * ideal);
   const double most = 1.0 + std::round(kSteps * std::log2(more));
   const double factor = std::exp2(std::round(std::clamp(steps, -2.0, most)) / kSteps);
   return std::max(factor * deliverable.edge, kLeastEdge);

@@ -22,7 +22,7 @@ struct RegionPart {
   /// cell.
   int level;
   int cell; ///< of level ≤ 0: number of the cell that it is part of; those of a cell follow on
-  int opposite = -1; ///< number of another border, or −1
+  int opposite = -1; ///< another border's index in `opposites`; −1 where there is none
 };
 struct RegionParts {
   double edge = 0.0; ///< of a cell
