@@ -2,6 +2,7 @@
 
 #include "core/base/angles.h"
 #include "core/base/triangle.h"
+#include "core/mesh/components.h"
 #include "core/optimum/admissible_cells.h"
 #include "core/optimum/parts_cut.h"
 #include "core/physics/moments.h"
@@ -117,18 +118,15 @@ private:
 /// Vertices of the cavity that lie farthest in directions all round: linear functionals, and with
 /// them the harm that a lump does, are greatest at one of these, up to the directions between.
 std::vector<Vec3> extremePoints(const CavityResult& cavity) {
+  const Points corners = submesh(cavity.inner, cavity.cavity.faces).mesh.vertices;
   std::vector<Vec3> points;
   for (int i = -1; i <= 1; ++i) {
     for (int j = -1; j <= 1; ++j) {
       for (int k = -1; k <= 1; ++k) {
         if (i == 0 && j == 0 && k == 0) continue;
-        const Vec3 direction = Vec3(i, j, k).normalized();
-        const int* const first = cavity.cavity.faces.data();
-        const int farthest =
-            *std::max_element(first, first + cavity.cavity.faces.size(), [&](int a, int b) {
-              return cavity.inner.row(a).dot(direction) < cavity.inner.row(b).dot(direction);
-            });
-        points.emplace_back(cavity.inner.row(farthest).transpose());
+        Eigen::Index farthest = 0;
+        (corners * Vec3(i, j, k)).maxCoeff(&farthest);
+        points.emplace_back(corners.row(farthest).transpose());
       }
     }
   }
