@@ -15,6 +15,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Eigen::Index kChunk = 1024;
 constexpr double kRounding = 1e-12;
+constexpr double kMeasured = 1e-9; ///< to which distances are, relative
 /// The search goes a little beyond the horizon: so far a face may move before the next measurement
 /// has to look at it again.
 constexpr double kBeyond = 1.00001;
@@ -47,14 +48,18 @@ public:
   double vertexBound(Eigen::Index v) const {
     return memory_.vertexBounds[v] * (1.0 - kRounding) - moved_[v];
   }
-  double faceBound(const Eigen::RowVector3i& face) const {
+  /// Of a face where it was; 0 when it was not there.
+  double faceBoundBefore(const Eigen::RowVector3i& face) const {
     for (const int corner : corners_.at(face[0])) {
-      if (memory_.faces.row(corner / 3) != face) continue;
-      const double moved = std::max({moved_[face[0]], moved_[face[1]], moved_[face[2]]});
-      return memory_.faceBounds[corner / 3] * (1.0 - kRounding) - moved;
+      if (memory_.faces.row(corner / 3) == face)
+        return memory_.faceBounds[corner / 3] * (1.0 - kRounding);
     }
     return 0.0;
   }
+  double faceMoved(const Eigen::RowVector3i& face) const {
+    return std::max({moved_[face[0]], moved_[face[1]], moved_[face[2]]});
+  }
+  Vec3 before(int v) const { return memory_.vertices.row(v).transpose(); }
 
 private:
   const ClearanceQuery::Memory& memory_;
@@ -87,11 +92,17 @@ public:
       for (Eigen::Index f = chunk.begin; f < chunk.end; ++f) {
         double& bound = faceBounds_[f];
         bound = boundByCorners(f);
-        if (bound < horizon_) bound = std::max(bound, remembered_.faceBound(faces_.row(f)));
-        if (bound >= horizon_ * (1.0 + kRounding)) continue;
+        double before = 0.0;
+        if (bound < horizon_) {
+          before = remembered_.faceBoundBefore(faces_.row(f));
+          bound = std::max(bound, before - remembered_.faceMoved(faces_.row(f)));
+        }
+        const double sure = horizon_ * (1.0 + kRounding);
+        if (bound >= sure) continue;
         const double reach = kBeyond * horizon_;
-        const double enough = std::min(leastAtCorners(squared_, f), reach * reach);
-        const double found = distanceOf(f, enough);
+        double enough = std::min(leastAtCorners(squared_, f), reach * reach);
+        if (before >= sure) enough = std::min(enough, 0.25 * (before + sure) * (before + sure));
+        const double found = before > 0.0 ? distanceOf(f, enough, before) : distanceOf(f, enough);
         bound = std::sqrt(found);
         if (found < enough) {
           near[static_cast<std::size_t>(chunk.number)].push_back({static_cast<int>(f), found});
@@ -211,6 +222,16 @@ private:
 
   double distanceOf(Eigen::Index f, double squaredBound) const {
     return other_.squaredClearance(corner(f, 0), corner(f, 1), corner(f, 2), squaredBound);
+  }
+
+  /// Not nearer than `before` where it was.
+  double distanceOf(Eigen::Index f, double squaredBound, double before) const {
+    const EarlierTriangle earlier{{remembered_.before(faces_(f, 0)),
+                                   remembered_.before(faces_(f, 1)),
+                                   remembered_.before(faces_(f, 2))},
+                                  before * (1.0 - kMeasured)};
+    return other_.squaredClearance(corner(f, 0), corner(f, 1), corner(f, 2), squaredBound,
+                                   &earlier);
   }
 
   /// At y = Σλ_i y_i the other surface is at least d away, d² ≥ Σλ_i d_i² − Σλ_i|y_i − y|²: a point

@@ -8,6 +8,8 @@ namespace {
 using Vectors = TrianglePacket::Vectors;
 
 constexpr float kUnits = 16.0F * std::numeric_limits<float>::epsilon();
+/// Of products, so that floats hold their sums.
+constexpr float kMostHeld = 1e37F;
 
 Vectors operator-(const Vectors& a, const Vectors& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
@@ -51,8 +53,7 @@ Lanes mostOf(const Lanes& a, const Lanes& b, const Lanes& c) {
 [[gnu::always_inline]] inline Lanes squaredLength(const Lanes& gap, const Vectors& axis,
                                                   const Lanes& size) {
   constexpr float kLeast = 1e-30F;
-  constexpr float kMost = 1e37F;
-  const Lanes held = Lanes::Zero().max(kMost - absSum(axis) * size);
+  const Lanes held = Lanes::Zero().max(kMostHeld - absSum(axis) * size);
   const Lanes reached = Lanes::Zero().max(gap).min(held);
   return (1.0F - kUnits) * reached * (reached / dot(axis, axis).max(kLeast));
 }
@@ -225,6 +226,40 @@ Lanes QueryTriangle::squaredDistances(const BoxPacket& boxes, float rounding,
   const Lanes gap =
       Lanes::Zero().max((planes->above - high).max(low - planes->below) - error * absSum(normal));
   return certain(atLeast.max((1.0F - kUnits) * gap.square()));
+}
+
+WayOfTriangle::WayOfTriangle(const Vec3& a, const Vec3& b, const Vec3& c,
+                             const EarlierTriangle& earlier)
+    : a_(broadcast(a)), size_(Lanes::Zero()), ways_(Lanes::Zero()) {
+  const double before = earlier.distance * earlier.distance;
+  before_ = Lanes::Constant(before < kMostHeld ? static_cast<float>(before) : 0.0F);
+  const Vec3* const now[3] = {&a, &b, &c};
+  const Vectors was[3] = {broadcast(Vec3(earlier.corners[0] - a)),
+                          broadcast(Vec3(earlier.corners[1] - a)),
+                          broadcast(Vec3(earlier.corners[2] - a))};
+  for (int k = 0; k < 3; ++k) {
+    by_[k] = broadcast(Vec3(*now[k] - earlier.corners[k]));
+    least_[k] = leastOf(dot(by_[k], was[0]), dot(by_[k], was[1]), dot(by_[k], was[2]));
+    size_ = size_.max(absMax(was[k]));
+    ways_ = ways_.max(absSum(by_[k]));
+  }
+}
+
+Lanes WayOfTriangle::squaredDistances(const BoxPacket& boxes, float rounding) const {
+  const Vectors from = Vectors{boxes.lower[0], boxes.lower[1], boxes.lower[2]} - a_;
+  const Vectors to = Vectors{boxes.upper[0], boxes.upper[1], boxes.upper[2]} - a_;
+  const Lanes size = absMax(from).max(absMax(to)).max(size_);
+  Lanes away = Lanes::Constant(kMostHeld);
+  for (int k = 0; k < 3; ++k) {
+    const Vectors& by = by_[k];
+    const Lanes farthest = (by.x * from.x).max(by.x * to.x) + (by.y * from.y).max(by.y * to.y) +
+                           (by.z * from.z).max(by.z * to.z);
+    away = away.min(least_[k] - farthest);
+  }
+  away -= (rounding + kUnits * size) * ways_;
+  const Lanes squares = (1.0F - kUnits) * before_ + 2.0F * away - kUnits * away.abs();
+  // Nothing is known where floats do not hold the products.
+  return (size * ways_ < kMostHeld).select(squares - std::numeric_limits<float>::min(), 0.0F);
 }
 
 } // namespace massprops

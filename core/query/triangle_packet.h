@@ -65,4 +65,32 @@ private:
   Lanes size_;
 };
 
+/// Where a triangle was, and how far away from a surface at least.
+struct EarlierTriangle {
+  Vec3 corners[3];
+  double distance;
+};
+
+/// The triangle (a, b, c) has come in straight lines from where it was. Of what it moved away from
+/// it is farther away now: |x + u − p|² ≥ |x − p|² + 2u·(x − p) for a point x of it that moved by
+/// u.
+class WayOfTriangle {
+public:
+  WayOfTriangle(const Vec3& a, const Vec3& b, const Vec3& c, const EarlierTriangle& earlier);
+
+  /// Not more than the squared distances from what of the surface is in the boxes; below 0 where
+  /// nothing is known. `rounding`: as for triangles.
+  Lanes squaredDistances(const BoxPacket& boxes, float rounding) const;
+
+private:
+  using Vectors = TrianglePacket::Vectors;
+
+  Vectors a_;      ///< four times the same, like all others
+  Vectors by_[3];  ///< that the corners moved
+  Lanes least_[3]; ///< u·x of where it was, x relative to a
+  Lanes before_;   ///< squared
+  Lanes size_;
+  Lanes ways_; ///< the longest, |x| + |y| + |z|
+};
+
 } // namespace massprops

@@ -365,7 +365,7 @@ TriangleTree::Hit TriangleTree::nearestOn(int face, const Vec3& p) const {
 }
 
 double TriangleTree::squaredDistance(const Vec3& a, const Vec3& b, const Vec3& c,
-                                     double squaredBound) const {
+                                     double squaredBound, const EarlierTriangle* earlier) const {
   assert(!triangles_.empty());
   const Vec3 s[3] = {a, b, c};
   const QueryTriangle query(a - centre_, b - centre_, c - centre_);
@@ -384,12 +384,22 @@ double TriangleTree::squaredDistance(const Vec3& a, const Vec3& b, const Vec3& c
     }
   };
   // The bound is near the distance most often: no order would bring it down much sooner.
+  const auto distances = [&](Eigen::Index node) -> Lanes {
+    const BoxPacket& boxes = boxesAt(node);
+    return squaredGaps(boxes, box).max(query.squaredDistances(boxes, rounding_, planesAt(node)));
+  };
+  if (earlier == nullptr) {
+    visitWithin(
+        distances, [&] { return least; }, visit);
+    return least;
+  }
+  const Vec3 were[3] = {earlier->corners[0] - centre_, earlier->corners[1] - centre_,
+                        earlier->corners[2] - centre_};
+  const WayOfTriangle way(a - centre_, b - centre_, c - centre_,
+                          {{were[0], were[1], were[2]}, earlier->distance});
   visitWithin(
-      [&](Eigen::Index node) {
-        const BoxPacket& boxes = boxesAt(node);
-        return squaredGaps(boxes, box)
-            .max(query.squaredDistances(boxes, rounding_, planesAt(node)))
-            .eval();
+      [&](Eigen::Index node) -> Lanes {
+        return distances(node).max(way.squaredDistances(boxesAt(node), rounding_));
       },
       [&] { return least; }, visit);
   return least;
@@ -412,8 +422,10 @@ TriangleTree::Hit TriangleTree::clearance(const Vec3& p, const Hit& nearest) con
 }
 
 double TriangleTree::squaredClearance(const Vec3& a, const Vec3& b, const Vec3& c,
-                                      double squaredBound) const {
-  const double least = squaredDistance(a, b, c, squaredBound);
+                                      double squaredBound, const EarlierTriangle* earlier) const {
+  // What is kept out reaches farther than its triangles.
+  const double least =
+      squaredDistance(a, b, c, squaredBound, keptOut_ == nullptr ? earlier : nullptr);
   if (keptOut_ == nullptr || least == 0.0) return least;
   const double reach = std::sqrt(least) + keptOutRadius_;
   const double fromCore = keptOut_->squaredDistance(a, b, c, reach * reach);

@@ -72,11 +72,14 @@ public:
     return clearance(p, nearest(p, squaredBound));
   }
   /// As the squared distance of a triangle, of both; 0 only where it crosses the surface.
-  double squaredClearance(const Vec3& a, const Vec3& b, const Vec3& c, double squaredBound) const;
+  /// `earlier`: null, or a place where it was, which tells how far away what it left behind is.
+  double squaredClearance(const Vec3& a, const Vec3& b, const Vec3& c, double squaredBound,
+                          const EarlierTriangle* earlier = nullptr) const;
 
   /// Squared distance, to a billionth, of the triangle (a, b, c) from the surface if below
-  /// `squaredBound`, else that; 0 where they cross.
-  double squaredDistance(const Vec3& a, const Vec3& b, const Vec3& c, double squaredBound) const;
+  /// `squaredBound`, else that; 0 where they cross. `earlier`: as above.
+  double squaredDistance(const Vec3& a, const Vec3& b, const Vec3& c, double squaredBound,
+                         const EarlierTriangle* earlier = nullptr) const;
 
   /// Length along the unit `direction` to the first triangle that does not have `start` as a
   /// corner, infinity where there is none. A triangle counts as 1e-9 of its size larger, so that

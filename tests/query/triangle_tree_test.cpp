@@ -15,6 +15,8 @@
 namespace massprops::testing {
 namespace {
 
+constexpr double kAnywhere = std::numeric_limits<double>::infinity();
+
 TEST(Chords, ThroughABallHaveTheLengthOfTheChord) {
   const TriangleMesh ball = sphere(12);
   const TriangleTree tree(ball.vertices, ball.faces);
@@ -58,13 +60,51 @@ INSTANTIATE_TEST_SUITE_P(
                       std::pair(1e-25, Vec3(0, 0, 0)), std::pair(1e-21, Vec3(0, 0, 0)),
                       std::pair(1.0, Vec3(1e5, -3e6, 0)), std::pair(1e-3, Vec3(0, 0, 1e5))));
 
+/// The distance of a triangle, to a billionth, is the same whatever is known of where it was.
+TEST_P(NearestPoint, OfATriangleIsThatOfAnyTriangleWhereverItComesFrom) {
+  const double size = GetParam().first;
+  const Vec3 origin = GetParam().second;
+  const TriangleMesh mesh = transformed(blob(16), size * Mat3::Identity(), origin);
+  const TriangleTree tree(mesh.vertices, mesh.faces);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> place(-1.0, 1.0);
+  const auto within = [&](double length) -> Vec3 {
+    return length * size * Vec3(place(random), place(random), place(random));
+  };
+  int nearer = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 middle = within(0.8);
+    // Most ways lead about the same way, up or down.
+    const Vec3 common = place(random) * (i % 3 == 0 ? 0.1 : 0.03) * middle;
+    EarlierTriangle earlier;
+    Vec3 now[3];
+    for (int k = 0; k < 3; ++k) {
+      earlier.corners[k] = origin + middle + within(0.01);
+      now[k] = earlier.corners[k] + (i % 5 == k ? Vec3(0, 0, 0) : Vec3(common + within(0.001)));
+    }
+    const Vec3* const was = earlier.corners;
+    const double before = tree.squaredDistance(was[0], was[1], was[2], kAnywhere);
+    const double whole = tree.squaredDistance(now[0], now[1], now[2], kAnywhere);
+    if (whole < before) ++nearer;
+    for (const double share : {1.0, 0.9, 0.0}) {
+      earlier.distance = share * std::sqrt(before);
+      for (const double bound : {kAnywhere, 1.0 * before, 1.1 * before}) {
+        const double expected = std::min(whole, bound);
+        EXPECT_NEAR(tree.squaredDistance(now[0], now[1], now[2], bound, &earlier), expected,
+                    1e-8 * expected);
+      }
+    }
+  }
+  EXPECT_GT(nearer, 20);
+  EXPECT_LT(nearer, 180);
+}
+
 TEST(NearestPoint, IsNotFartherAwayThanTheSlackAllows) {
   const TriangleMesh ball = sphere(40);
   const TriangleTree tree(ball.vertices, ball.faces);
   std::mt19937 random(4);
   std::uniform_real_distribution<double> place(-0.5, 0.5);
   std::uniform_int_distribution<int> face(0, static_cast<int>(ball.faces.rows()) - 1);
-  constexpr double kAnywhere = std::numeric_limits<double>::infinity();
   int farther = 0;
   for (int i = 0; i < 300; ++i) {
     const Vec3 p(place(random), place(random), place(random));
