@@ -153,11 +153,12 @@ QueryTriangle::QueryTriangle(const Vec3& a, const Vec3& b, const Vec3& c)
     : a_(broadcast(a)), b_(broadcast(b) - a_), c_(broadcast(c) - a_),
       size_(absMax(b_).max(absMax(c_))) {
   const Vec3 sides[3] = {b - a, c - b, a - c};
-  const Vec3* longest = &sides[0];
-  for (const Vec3& side : sides) {
-    if (side.squaredNorm() > longest->squaredNorm()) longest = &side;
+  int longest = 0;
+  for (int k = 1; k < 3; ++k) {
+    if (sides[k].squaredNorm() > sides[longest].squaredNorm()) longest = k;
   }
-  const Vec3 along = longest->squaredNorm() > 0.0 ? longest->normalized() : Vec3::UnitX();
+  const bool isPoint = !(sides[longest].squaredNorm() > 0.0);
+  const Vec3 along = isPoint ? Vec3(Vec3::UnitX()) : sides[longest].normalized();
   const Vec3 normal =
       along.cross(sides[0].squaredNorm() < sides[1].squaredNorm() ? sides[0] : sides[1]);
   const Vec3 across =
@@ -170,6 +171,14 @@ QueryTriangle::QueryTriangle(const Vec3& a, const Vec3& b, const Vec3& c)
     low_[k] = ofB.min(ofC).min(0.0F);
     high_[k] = ofB.max(ofC).max(0.0F);
   }
+  for (int k = 0; k < 2; ++k) {
+    const Vec3& side = sides[(longest + 1 + k) % 3];
+    const Vec3& next = sides[(longest + 2 + k) % 3];
+    Vec3 outwards = side.cross(axes[2]);
+    if (outwards.dot(next) > 0.0) outwards = -outwards;
+    beside_[k] = broadcast(outwards.squaredNorm() > 0.0 ? Vec3(outwards.normalized()) : across);
+    atSide_[k] = dot(beside_[k], b_).max(dot(beside_[k], c_)).max(0.0F);
+  }
 }
 
 Lanes QueryTriangle::squaredDistances(const TrianglePacket& triangles, float rounding) const {
@@ -177,14 +186,20 @@ Lanes QueryTriangle::squaredDistances(const TrianglePacket& triangles, float rou
                         triangles.corner(2) - a_};
   const Lanes size = mostOf(absMax(t[0]), absMax(t[1]), absMax(t[2])).max(size_);
   const Lanes error = rounding + kUnits * size;
-  Lanes inFrame = Lanes::Zero();
+  Lanes inFrame[3];
   for (int k = 0; k < 3; ++k) {
     const Vectors& axis = frame_[k];
     const Lanes p = dot(axis, t[0]);
     const Lanes q = dot(axis, t[1]);
     const Lanes r = dot(axis, t[2]);
     const Lanes gap = (leastOf(p, q, r) - high_[k]).max(low_[k] - mostOf(p, q, r));
-    inFrame += Lanes::Zero().max(gap - error * absSum(axis)).square();
+    inFrame[k] = Lanes::Zero().max(gap - error * absSum(axis)).square();
+  }
+  Lanes inPlane = inFrame[0] + inFrame[1];
+  for (int k = 0; k < 2; ++k) {
+    const Vectors& axis = beside_[k];
+    const Lanes gap = leastOf(dot(axis, t[0]), dot(axis, t[1]), dot(axis, t[2])) - atSide_[k];
+    inPlane = inPlane.max(Lanes::Zero().max(gap - error * absSum(axis)).square());
   }
   const Vectors axis = cross(t[1] - t[0], t[2] - t[0]);
   const Lanes p = dot(axis, t[0]);
@@ -195,7 +210,7 @@ Lanes QueryTriangle::squaredDistances(const TrianglePacket& triangles, float rou
   const Lanes gap =
       (leastOf(p, q, r) - b.max(c).max(0.0F)).max(b.min(c).min(0.0F) - mostOf(p, q, r));
   const Lanes ofNormals = squaredLength(gap - error * absSum(axis), axis, size);
-  return certain(((1.0F - kUnits) * inFrame).max(ofNormals));
+  return certain(((1.0F - kUnits) * (inPlane + inFrame[2])).max(ofNormals));
 }
 
 Lanes QueryTriangle::squaredDistances(const BoxPacket& boxes, float rounding,
@@ -207,25 +222,45 @@ Lanes QueryTriangle::squaredDistances(const BoxPacket& boxes, float rounding,
   const Lanes error = rounding + kUnits * absMax(from).max(absMax(to)).max(size_);
   const Vectors middle{0.5F * (from.x + to.x), 0.5F * (from.y + to.y), 0.5F * (from.z + to.z)};
   const Vectors half{0.5F * (to.x - from.x), 0.5F * (to.y - from.y), 0.5F * (to.z - from.z)};
-  Lanes inFrame = Lanes::Zero();
+  const auto reachAlong = [&](const Vectors& axis) -> Lanes {
+    return axis.x.abs() * half.x + axis.y.abs() * half.y + axis.z.abs() * half.z;
+  };
+  Lanes gaps[3];
   for (int k = 0; k < 3; ++k) {
     const Vectors& axis = frame_[k];
     const Lanes at = dot(axis, middle);
-    const Lanes reach = axis.x.abs() * half.x + axis.y.abs() * half.y + axis.z.abs() * half.z;
-    const Lanes gap = (at - reach - high_[k]).max(low_[k] - at - reach);
-    inFrame += Lanes::Zero().max(gap - error * absSum(axis)).square();
+    const Lanes reach = reachAlong(axis);
+    gaps[k] = (at - reach - high_[k]).max(low_[k] - at - reach) - error * absSum(axis);
   }
-  Lanes atLeast = (1.0F - kUnits) * inFrame;
-  if (planes == nullptr || planes->normal.isZero()) return certain(atLeast);
+  Lanes inPlane = Lanes::Zero().max(gaps[0]).square() + Lanes::Zero().max(gaps[1]).square();
+  for (int k = 0; k < 2; ++k) {
+    const Vectors& axis = beside_[k];
+    const Lanes gap = dot(axis, middle) - reachAlong(axis) - atSide_[k];
+    inPlane = inPlane.max(Lanes::Zero().max(gap - error * absSum(axis)).square());
+  }
+  const auto inFrame = [&]() -> Lanes {
+    return (1.0F - kUnits) * (inPlane + Lanes::Zero().max(gaps[2]).square());
+  };
+  if (planes == nullptr || planes->normal.isZero()) return certain(inFrame());
   const Vectors normal = broadcast(planes->normal);
   const Lanes at = dot(normal, a_);
+  const Lanes above = planes->above - at;
+  const Lanes below = planes->below - at;
+  // This one's normal is partly the planes', between which little lies; of the rest boxes tell.
+  const Vectors& own = frame_[2];
+  const Lanes share = dot(own, normal);
+  const Vectors rest{own.x - share * normal.x, own.y - share * normal.y, own.z - share * normal.z};
+  const Lanes atRest = dot(rest, middle);
+  const Lanes reach = reachAlong(rest);
+  const Lanes low = (share * above).min(share * below) + atRest - reach;
+  const Lanes high = (share * above).max(share * below) + atRest + reach;
+  constexpr float kRoundings = 4.0F; // as many as along one axis
+  gaps[2] = gaps[2].max((low - high_[2]).max(low_[2] - high) - kRoundings * error);
   const Lanes b = dot(normal, b_);
   const Lanes c = dot(normal, c_);
-  const Lanes low = at + b.min(c).min(0.0F);
-  const Lanes high = at + b.max(c).max(0.0F);
-  const Lanes gap =
-      Lanes::Zero().max((planes->above - high).max(low - planes->below) - error * absSum(normal));
-  return certain(atLeast.max((1.0F - kUnits) * gap.square()));
+  const Lanes gap = (above - b.max(c).max(0.0F)).max(b.min(c).min(0.0F) - below);
+  const Lanes ofPlanes = Lanes::Zero().max(gap - error * absSum(normal)).square();
+  return certain(inFrame().max((1.0F - kUnits) * ofPlanes));
 }
 
 WayOfTriangle::WayOfTriangle(const Vec3& a, const Vec3& b, const Vec3& c,

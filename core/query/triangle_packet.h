@@ -51,7 +51,7 @@ public:
   QueryTriangle(const Vec3& a, const Vec3& b, const Vec3& c);
 
   /// Not more than the squared distances from the triangles: those of boxes turned as this one
-  /// lies, and the gaps along the others' normals.
+  /// lies, what is beside its sides, and the gaps along the others' normals.
   Lanes squaredDistances(const TrianglePacket& triangles, float rounding) const;
   /// Not more than the squared distances from what boxes and planes hold.
   Lanes squaredDistances(const BoxPacket& boxes, float rounding, const PlanePacket* planes) const;
@@ -62,6 +62,8 @@ private:
   Vectors a_, b_, c_;      ///< the others relative to a, each four times the same
   Vectors frame_[3];       ///< orthonormal: along a side, across it, normal
   Lanes low_[3], high_[3]; ///< of the triangle in the frame, relative to a
+  Vectors beside_[2];      ///< unit, across the two shorter sides, outwards
+  Lanes atSide_[2];        ///< where these are along them, relative to a
   Lanes size_;
 };
 

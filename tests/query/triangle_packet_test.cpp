@@ -203,5 +203,45 @@ TEST(BoxPacket, TellsHowFarPiecesOfASlantedPlaneAre) {
   }
 }
 
+TEST(QueryTriangle, TellsHowFarTrianglesBesideItsSidesAre) {
+  const Mat3 turn = Eigen::AngleAxisd(0.4, Vec3(2, -1, 1).normalized()).toRotationMatrix();
+  const QueryTriangle query(turn * Vec3(0, 0, 0), turn * Vec3(2, 0, 0), turn * Vec3(1, 1, 0));
+  for (const double side : {-1.0, 1.0}) {
+    const Vec3 outwards = Vec3(side, 1, 0).normalized();
+    const Vec3 along(outwards.y(), -outwards.x(), 0);
+    TrianglePacket four;
+    for (int i = 0; i < 4; ++i) {
+      const Vec3 near = Vec3(1.0 + 0.5 * side, 0.5, 0.3) + 0.1 * (i + 1) * outwards;
+      four.set(i, turn * (near + 0.3 * along), turn * (near - 0.3 * along),
+               turn * (near + outwards));
+    }
+    const Lanes found = query.squaredDistances(four, 1e-6F);
+    for (int i = 0; i < 4; ++i) {
+      const double squared = 0.01 * (i + 1) * (i + 1) + 0.09;
+      EXPECT_NEAR(static_cast<double>(found[i]), squared, 1e-3 * squared);
+    }
+  }
+}
+
+// The nearest corner is beside the other pieces, the boxes of which reach farther up than they do.
+TEST(QueryTriangle, TellsHowFarPiecesOfASlantedPlaneAreBelowIt) {
+  const Mat3 turn = Eigen::AngleAxisd(0.9, Vec3(1, 1, 1).normalized()).toRotationMatrix();
+  const Corners query{turn * Vec3(0, 0, 1), turn * Vec3(4, -1, 1.4), turn * Vec3(4, 1, 1.4)};
+  std::vector<Corners> all;
+  for (int i = 0; i < 4; ++i) {
+    all.push_back({Vec3(i, -0.2, 0), Vec3(i + 0.4, -0.2, 0), Vec3(i, 0.2, 0)});
+    for (Vec3& p : all.back()) p = (turn * p).eval();
+  }
+  const auto [boxes, planes] = boundsOf(all, turn * Vec3::UnitZ());
+  const Lanes found =
+      QueryTriangle(query[0], query[1], query[2]).squaredDistances(boxes, roundingOf(all), &planes);
+  for (int i = 0; i < 4; ++i) {
+    const double height = (1.0 + 0.1 * i) / std::sqrt(1.01);
+    EXPECT_GT(static_cast<double>(found[i]), std::pow(height - 0.03, 2));
+    EXPECT_LE(static_cast<double>(found[i]),
+              squaredDistance(query, all[static_cast<std::size_t>(i)]));
+  }
+}
+
 } // namespace
 } // namespace massprops
