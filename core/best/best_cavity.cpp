@@ -290,12 +290,12 @@ Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, double farth
   const double roomy = wallBeforeRounding(task);
   double wall = task.wall;
   CavityResult result;
+  std::vector<Vec3> crossing;
   constexpr int kRounds = 3;
   for (int round = 1; round <= kRounds; ++round) {
     if (deliverable.wall < roomy || round > 1) wall += roomy - task.wall;
-    std::optional<CavityContour> found =
-        wall <= deliverable.wall ? cavityContour(deliverable, quadric, isWorthIt)
-                                 : cavityContour(withWall(deliverable, wall), quadric, isWorthIt);
+    const OpenedSet set = wall <= deliverable.wall ? deliverable : withWall(deliverable, wall);
+    std::optional<CavityContour> found = cavityContour(set, quadric, isWorthIt, crossing);
     if (!found || found->contour.mesh.faces.rows() == 0) {
       result = {};
       // Where there is room the limit's body is the solid one.
@@ -308,6 +308,9 @@ Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, double farth
     result = polished(task, quadric, wall, *std::move(found));
     result.effort.rounds = round;
     if (result.inspection.isClean()) break;
+    // What just passes by in one frame may touch in another.
+    for (const int v : result.inspection.crossing)
+      crossing.emplace_back(result.inner.row(v).transpose());
   }
   result.shape = CavityShape::BestPossible;
   result.edge = deliverable.edge;
@@ -357,7 +360,7 @@ double edgeThatWillDo(const CavityTask& task, const OpenedSet& deliverable) {
   });
   if (gap <= 0.0) return deliverable.edge;
   // In steps: the last digits of the gap depend on where the model lies.
-  constexpr double kSteps = 4.0; // that double the edge
+  constexpr double kSteps = 4.0;                                        // that double the edge
   const double ideal = kLarger * std::pow(kWanted / gap, 1.0 / kPower); // times the edge
   const double more = leewayOfEdge(task.surface);
   const double steps = kSteps * std::log2(more * ideal);

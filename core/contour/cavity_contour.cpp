@@ -155,7 +155,8 @@ Troubles troublesLeft(ClearanceQuery& clearance, double wall, Contour& contour) 
 
 std::optional<CavityContour> cavityContour(const OpenedSet& set,
                                            const std::optional<LayeredQuadric>& quadric,
-                                           const std::function<bool(const Contour&)>& isWorthIt) {
+                                           const std::function<bool(const Contour&)>& isWorthIt,
+                                           const std::vector<Vec3>& solid) {
   ClearanceQuery fresh(set.surface);
   if (!set.deep) return CavityContour{{}, set.edge, fresh};
   const double leastVolume = std::pow(set.ball.width, 3);
@@ -164,13 +165,13 @@ std::optional<CavityContour> cavityContour(const OpenedSet& set,
   const Region region{set.surface,   (1.0 + kMore) * set.wall, &*set.deep, quadric, set.edge,
                       set.fill.get()};
   std::optional<BorderLattice> lattice;
-  // What the cubes are too large for becomes solid.
-  std::vector<std::vector<Vec3>> tooSmall;
+  // What the cubes are too large for becomes solid, too.
+  std::vector<std::vector<Vec3>> takenOut{solid};
   constexpr int kRounds = 9;
   for (int round = 0; round < kRounds; ++round) {
     if (!lattice) {
       lattice = borderLattice(region, set.edge);
-      for (const std::vector<Vec3>& points : tooSmall) takeOut(points, *lattice);
+      for (const std::vector<Vec3>& points : takenOut) takeOut(points, *lattice);
     }
     Contour raw = dualContour(*lattice);
     // A large one takes as much memory as all that follows, and is seldom needed again.
@@ -188,7 +189,7 @@ std::optional<CavityContour> cavityContour(const OpenedSet& set,
       return CavityContour{std::move(contour), set.edge, std::move(clearance)};
     for (const std::vector<Vec3>& points : {troubles.thin, troubles.crossing}) {
       if (lattice) takeOut(points, *lattice);
-      tooSmall.push_back(points);
+      takenOut.push_back(points);
     }
   }
   return {};

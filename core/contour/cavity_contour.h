@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 namespace massprops {
 
@@ -24,9 +25,11 @@ struct CavityContour {
 /// outward, that do not cross themselves, no point of which is nearer to the surface than the set's
 /// wall; no faces where there is no such point. Empty: it was not found, which happens on surfaces
 /// far too uneven. `isWorthIt`: asked about the surface while its walls are still too thin here and
-/// there; where it says no that is returned, not finished.
+/// there; where it says no that is returned, not finished. `solid`: points in cubes of which
+/// nothing shall be hollow.
 std::optional<CavityContour>
 cavityContour(const OpenedSet& set, const std::optional<LayeredQuadric>& quadric,
-              const std::function<bool(const Contour&)>& isWorthIt = {});
+              const std::function<bool(const Contour&)>& isWorthIt = {},
+              const std::vector<Vec3>& solid = {});
 
 } // namespace massprops

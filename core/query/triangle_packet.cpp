@@ -159,10 +159,12 @@ QueryTriangle::QueryTriangle(const Vec3& a, const Vec3& b, const Vec3& c)
   }
   const bool isPoint = !(sides[longest].squaredNorm() > 0.0);
   const Vec3 along = isPoint ? Vec3(Vec3::UnitX()) : sides[longest].normalized();
-  const Vec3 normal =
-      along.cross(sides[0].squaredNorm() < sides[1].squaredNorm() ? sides[0] : sides[1]);
-  const Vec3 across =
-      normal.squaredNorm() > 0.0 ? along.cross(normal).normalized() : along.unitOrthogonal();
+  const Vec3& other = sides[0].squaredNorm() < sides[1].squaredNorm() ? sides[0] : sides[1];
+  const Vec3 normal = along.cross(other);
+  // What rounding leaves of a side that is parallel is no direction.
+  constexpr double kParallel = 1e-12;
+  const Vec3 across = normal.norm() > kParallel * other.norm() ? along.cross(normal).normalized()
+                                                               : along.unitOrthogonal();
   const Vec3 axes[3] = {along, across, along.cross(across)};
   for (int k = 0; k < 3; ++k) {
     frame_[k] = broadcast(axes[k]);

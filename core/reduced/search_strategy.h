@@ -34,7 +34,7 @@ std::optional<Filling> weakestFilling(const CavityTask& task, const CavityResult
 double greatestWall(double tooThick, const std::function<bool(double)>& hasRoom,
                     const std::function<void(double)>& progress);
 
-/// The greatest wall below the wanted one that leaves room for a cavity, within an eighth of it,
+/// The greatest wall below the wanted one that `leavesRoom` for a cavity, within an eighth of it,
 /// working length; 0 when none was found down to a thousandth. `boundsFor`: the offsets' bounds
 /// that keep a wall. `progress`: called with the share of the work that is done, 0…1; may be empty.
 double largestWall(CavityTask task, const std::function<OffsetBounds(double)>& boundsFor,

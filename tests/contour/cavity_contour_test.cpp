@@ -6,6 +6,7 @@
 #include "core/contour/wall_keeping.h"
 #include "core/mesh/components.h"
 #include "core/mesh/connectivity.h"
+#include "core/query/point_in_mesh.h"
 #include "core/query/self_intersection.h"
 #include "core/query/surface_distance.h"
 #include "property/cases.h"
@@ -63,6 +64,30 @@ TEST(CavityContour, FillsAlmostAllOfWhatABallLeaves) {
   const double volume = moments(outer.vertices, outer.faces)[0] * std::pow(1.0 - wall, 3);
   EXPECT_NEAR(moments(cavity->contour.mesh.vertices, cavity->contour.mesh.faces)[0], volume,
               3e-3 * volume);
+}
+
+TEST(CavityContour, LeavesCubesAroundPointsSolid) {
+  const TriangleMesh outer = sphere(30);
+  const TriangleTree tree(outer.vertices, outer.faces);
+  const double wall = 0.05;
+  const OpenedSet set =
+      openedSet(tree, wall, edgeOfCubes(surfaceArea(outer.vertices, outer.faces), 40000));
+  const Vec3 place = Vec3(1, 2, 2).normalized() * (1.0 - wall);
+  const auto nearest = [&](const TriangleMesh& mesh) {
+    return std::sqrt(TriangleTree(mesh.vertices, mesh.faces).nearest(place).squaredDistance);
+  };
+  const auto whole = cavityContour(set, {});
+  const auto cavity = cavityContour(set, {}, {}, {place});
+  ASSERT_TRUE(whole && cavity);
+  const TriangleMesh& mesh = cavity->contour.mesh;
+  expectCavity(tree, wall, mesh);
+  EXPECT_LT(nearest(whole->contour.mesh), 0.1 * set.edge);
+  EXPECT_GT(nearest(mesh), 0.3 * set.edge);
+  EXPECT_FALSE(PointInMesh(TriangleTree(mesh.vertices, mesh.faces)).contains(place));
+  const double lost = moments(whole->contour.mesh.vertices, whole->contour.mesh.faces)[0] -
+                      moments(mesh.vertices, mesh.faces)[0];
+  EXPECT_GT(lost, 0.0);
+  EXPECT_LT(lost, 100.0 * std::pow(set.edge, 3));
 }
 
 TEST(CavityContour, HasNoMoreTrianglesThanAnybodyWantsWhereTheyCostLittle) {
