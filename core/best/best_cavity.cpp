@@ -445,7 +445,7 @@ Deliverable deliverableSet(const TriangleTree& surface, double wall, const Regio
   const double edge =
       std::clamp(width / kAcross, edgeOfCubes(area, kMost), edgeOfCubes(area, kFewest));
   const auto deliverable = [&](OpenedSet set) {
-    AdmissibleCells within = cellsOf(partsWithin(set, behindWall));
+    AdmissibleCells within = cellsWithin(set, behindWall);
     return Deliverable{std::move(set), std::move(within)};
   };
   std::optional<Deliverable> found =

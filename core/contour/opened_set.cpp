@@ -52,6 +52,36 @@ private:
   TriangleTree::Hit near_;
 };
 
+/// Of cubes behind the walls another plane cuts those where the opening ends or something is
+/// filled.
+RegionParts partsWithin(const OpenedSet& set, const RegionParts& all) {
+  if (!set.deep) return {all.edge, all.wall, {}};
+  RegionParts result = partsLeft(
+      all, [&] { return WithinReach(*set.deep); }, kFiner);
+  if (!set.fill) return result;
+  return partsLeft(result, [&] {
+    return [&](const RegionPart& part, double) { return set.fill->at(part.centre); };
+  });
+}
+
+/// Calls visit(some) for the parts by turns, those of a cell in one: what is left of all at once
+/// takes as much memory as all else.
+template <class Visit>
+void inTurns(const RegionParts& all, const Visit& visit) {
+  constexpr std::size_t kTurn = 1U << 14U;
+  RegionParts some{all.edge, all.wall, {}, all.opposites};
+  for (std::size_t i = 0; i < all.parts.size(); ++i) {
+    const RegionPart& part = all.parts[i];
+    some.parts.push_back(part);
+    const bool isLast = i + 1 == all.parts.size();
+    const bool goesOn = !isLast && part.level <= 0 && all.parts[i + 1].level <= 0 &&
+                        all.parts[i + 1].cell == part.cell;
+    if (!isLast && (goesOn || some.parts.size() < kTurn)) continue;
+    visit(some);
+    some.parts.clear();
+  }
+}
+
 } // namespace
 
 double edgeOfCubes(double area, double count) {
@@ -78,23 +108,34 @@ OpenedSet openedSet(const TriangleTree& surface, double wall, const OpeningBall&
 
 double volumeInDoubt(const OpenedSet& set, const RegionParts& all) {
   const double fits = set.wall + 0.5 * set.ball.width;
-  RegionParts perhaps{all.edge, all.wall, {}, all.opposites};
-  for (const RegionPart& part : all.parts) {
-    const double half = 0.5 * std::sqrt(3.0) * all.edge * std::ldexp(1.0, part.level - 1);
-    if (part.depth + half >= fits) perhaps.parts.push_back(part);
-  }
   const auto volume = [](const RegionParts& parts) { return cellsOf(parts).col(0).sum(); };
-  return volume(perhaps) - volume(partsWithin(set, perhaps));
+  double doubtful = 0.0;
+  inTurns(all, [&](RegionParts& some) {
+    const auto doesNotFit = [&](const RegionPart& part) {
+      const double half = 0.5 * std::sqrt(3.0) * all.edge * std::ldexp(1.0, part.level - 1);
+      return part.depth + half < fits;
+    };
+    std::vector<RegionPart>& parts = some.parts;
+    parts.erase(std::remove_if(parts.begin(), parts.end(), doesNotFit), parts.end());
+    doubtful += volume(some) - volume(partsWithin(set, some));
+  });
+  return doubtful;
 }
 
-RegionParts partsWithin(const OpenedSet& set, const RegionParts& all) {
-  if (!set.deep) return {all.edge, all.wall, {}};
-  RegionParts result = partsLeft(
-      all, [&] { return WithinReach(*set.deep); }, kFiner);
-  if (!set.fill) return result;
-  return partsLeft(result, [&] {
-    return [&](const RegionPart& part, double) { return set.fill->at(part.centre); };
+AdmissibleCells cellsWithin(const OpenedSet& set, const RegionParts& all) {
+  std::vector<AdmissibleCells> turns;
+  Eigen::Index count = 0;
+  inTurns(all, [&](const RegionParts& some) {
+    turns.push_back(cellsOf(partsWithin(set, some)));
+    count += turns.back().rows();
   });
+  AdmissibleCells cells(count, 10);
+  Eigen::Index first = 0;
+  for (const AdmissibleCells& some : turns) {
+    cells.middleRows(first, some.rows()) = some;
+    first += some.rows();
+  }
+  return cells;
 }
 
 } // namespace massprops

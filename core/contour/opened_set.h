@@ -33,9 +33,8 @@ double edgeOfCubes(double area, double count);
 OpenedSet openedSet(const TriangleTree& surface, double wall, double edge);
 OpenedSet openedSet(const TriangleTree& surface, double wall, const OpeningBall& ball, double edge);
 
-/// What belongs to it of the cubes behind the walls; another plane cuts those where the opening
-/// ends or something is filled.
-RegionParts partsWithin(const OpenedSet& set, const RegionParts& all);
+/// What belongs to it of the cubes behind the walls, as `cellsOf` has it.
+AdmissibleCells cellsWithin(const OpenedSet& set, const RegionParts& all);
 
 /// What the set leaves out, a volume, of the cubes behind the walls that may hold the ball's
 /// middle. Where there is much of it the ball's own cubes may be too large for the thin sheets that

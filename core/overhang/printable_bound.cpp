@@ -18,7 +18,7 @@ bool isBetter(const OptimalBound& a, const OptimalBound& b) {
 }
 
 OptimalBound bestWithin(const PrintableTask& task, const Printable& found) {
-  const AdmissibleCells cells = cellsOf(partsWithin(found.set, task.behindWalls));
+  const AdmissibleCells cells = cellsWithin(found.set, task.behindWalls);
   return withBodyWithin(cells, found.bound, task.goal, task.weights, task.solid, task.fillings);
 }
 
