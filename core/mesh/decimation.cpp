@@ -133,7 +133,10 @@ public:
 
   Eigen::Index size() const { return halves_[0].alive + halves_[1].alive; }
 
-  DecimatedMesh copy() const {
+  DecimatedMesh result() && {
+    // These take most of the memory.
+    std::vector<Quadric>().swap(quadrics_);
+    std::vector<int>().swap(opposite_);
     DecimatedMesh result;
     std::vector<int> number(outgoing_.size(), -1);
     for (std::size_t v = 0; v < outgoing_.size(); ++v) {
@@ -145,13 +148,13 @@ public:
     for (std::size_t i = 0; i < result.vertexOf.size(); ++i) {
       result.mesh.vertices.row(static_cast<Eigen::Index>(i)) = x_.row(result.vertexOf[i]);
     }
-    std::vector<int> kept;
-    for (std::size_t h = 0; h < corner_.size(); h += 3) {
-      if (corner_[h] < 0) continue;
-      for (std::size_t k = 0; k < 3; ++k) kept.push_back(number[at(corner_[h + k])]);
+    const auto corners =
+        std::count_if(corner_.begin(), corner_.end(), [](int v) { return v >= 0; });
+    result.mesh.faces.resize(corners / 3, 3);
+    int* next = result.mesh.faces.data();
+    for (const int v : corner_) {
+      if (v >= 0) *next++ = number[at(v)];
     }
-    result.mesh.faces =
-        Eigen::Map<const Faces>(kept.data(), static_cast<Eigen::Index>(kept.size() / 3), 3);
     result.vertexFor = vertexFor(number);
     return result;
   }
@@ -336,7 +339,7 @@ DecimatedMesh decimated(const Points& vertices, const Faces& faces,
   if (isMuchLess(target.least, vertices)) {
     QuadricDecimation surface(vertices, faces, target);
     surface.reduceTo(target);
-    if (isMuchLess(surface.size(), vertices)) return surface.copy();
+    if (isMuchLess(surface.size(), vertices)) return std::move(surface).result();
   }
   std::vector<int> itself(static_cast<std::size_t>(vertices.rows()));
   std::iota(itself.begin(), itself.end(), 0);

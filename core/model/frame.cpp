@@ -35,11 +35,12 @@ Mat3 rotationToUp(UpAxis up) {
 }
 
 Points toWorking(const Frame& frame, const Points& model) {
-  return ((model.rowwise() - frame.origin.transpose()) * frame.rotation.transpose()) / frame.length;
+  return (model.rowwise() - frame.origin.transpose()).lazyProduct(frame.rotation.transpose()) /
+         frame.length;
 }
 
 Points toModel(const Frame& frame, const Points& working) {
-  return ((working * frame.rotation) * frame.length).rowwise() + frame.origin.transpose();
+  return (working.lazyProduct(frame.rotation) * frame.length).rowwise() + frame.origin.transpose();
 }
 
 Points snapped(Points working) {
