@@ -33,10 +33,12 @@ double squaredRadius(double ab, double bc, double ca) {
 /// Bounds of distances by what is known of where vertices and faces were.
 class Remembered {
 public:
-  Remembered(const ClearanceQuery::Memory& memory, const Points& vertices)
-      : memory_(memory),
-        corners_(vertexCorners(std::max(vertices.rows(), memory.vertices.rows()), memory.faces)),
+  Remembered(const ClearanceQuery::Memory& memory, const Points& vertices, const Faces& faces)
+      : memory_(memory), areFacesTheSame_(faces.rows() == memory.faces.rows() &&
+                                          (faces.array() == memory.faces.array()).all()),
         moved_(Vector::Constant(vertices.rows(), kInfinity)) {
+    if (!areFacesTheSame_)
+      corners_ = vertexCorners(std::max(vertices.rows(), memory.vertices.rows()), memory.faces);
     const Eigen::Index known = std::min(vertices.rows(), memory.vertices.rows());
     moved_.head(known) =
         (vertices.topRows(known) - memory.vertices.topRows(known)).rowwise().norm();
@@ -48,8 +50,9 @@ public:
   double vertexBound(Eigen::Index v) const {
     return memory_.vertexBounds[v] * (1.0 - kRounding) - moved_[v];
   }
-  /// Of a face where it was; 0 when it was not there.
-  double faceBoundBefore(const Eigen::RowVector3i& face) const {
+  /// Of face f, with these corners, where it was; 0 when it was not there.
+  double faceBoundBefore(Eigen::Index f, const Eigen::RowVector3i& face) const {
+    if (areFacesTheSame_) return memory_.faceBounds[f] * (1.0 - kRounding);
     for (const int corner : corners_.at(face[0])) {
       if (memory_.faces.row(corner / 3) == face)
         return memory_.faceBounds[corner / 3] * (1.0 - kRounding);
@@ -63,7 +66,8 @@ public:
 
 private:
   const ClearanceQuery::Memory& memory_;
-  VertexCorners corners_;
+  bool areFacesTheSame_;
+  VertexCorners corners_; ///< of the faces that were there, unless they are the same
   Vector moved_;
 };
 
@@ -73,7 +77,8 @@ public:
   Measurement(const Points& vertices, const Faces& faces, const TriangleTree& other, double horizon,
               const ClearanceQuery::Memory& memory)
       : x_(vertices), faces_(faces), other_(other), horizon_(horizon),
-        remembered_(memory, vertices), squared_(Vector::Constant(vertices.rows(), kInfinity)),
+        remembered_(memory, vertices, faces),
+        squared_(Vector::Constant(vertices.rows(), kInfinity)),
         vertexBounds_(Vector::Zero(vertices.rows())), faceBounds_(faces.rows()),
         nearestFace_(static_cast<std::size_t>(vertices.rows()), -1) {}
 
@@ -94,7 +99,7 @@ public:
         bound = boundByCorners(f);
         double before = 0.0;
         if (bound < horizon_) {
-          before = remembered_.faceBoundBefore(faces_.row(f));
+          before = remembered_.faceBoundBefore(f, faces_.row(f));
           bound = std::max(bound, before - remembered_.faceMoved(faces_.row(f)));
         }
         const double sure = horizon_ * (1.0 + kRounding);
