@@ -107,13 +107,33 @@ std::size_t at(int i) {
 
 constexpr double kLeastValue = 1e-6; // edges; what is less is not inside
 
-void sampleCorner(const Region& region, InsetProbe& probe, int c, BorderLattice& lattice) {
+/// Two surfaces at an acute angle are kept apart: their triangles would cross each other where the
+/// region between them ends. The more acute, the wider apart.
+std::optional<Sample> chamfer(const Sample& inset, const Sample& cut, double edge) {
+  constexpr double kBegins = -0.5; // cosine between the slopes
+  constexpr double kWhole = -0.9;
+  constexpr double kApart = 0.4; // edges
+  const double cosine = inset.slope.dot(cut.slope);
+  const Vec3 slope = inset.slope + cut.slope;
+  const double steepness = slope.norm();
+  if (cosine > kBegins || steepness < 1e-9) return {};
+  const double apart = kApart * edge * std::min((cosine - kBegins) / (kWhole - kBegins), 1.0);
+  return Sample{(inset.value + cut.value - apart) / steepness, slope / steepness};
+}
+
+CornerSamples samplesOf(const Corner& corner, const std::optional<Sample>& cut, double edge) {
+  CornerSamples samples{corner.inset, cut, {}};
+  if (corner.mayBeChamfered && corner.inset && cut)
+    samples.chamfer = chamfer(*corner.inset, *cut, edge);
+  return samples;
+}
+
+void sampleCorner(InsetProbe& probe, int c, BorderLattice& lattice) {
   Corner& corner = lattice.corners[at(c)];
   const Vec3 x = lattice.positionOf(c);
   corner.inset = probe.at(x, 2.0 * lattice.edge);
-  if (region.quadric) corner.cut = cutAt(region, x);
-  corner.mayBeChamfered = corner.inset.has_value();
-  corner.isInside = corner.value(lattice.edge) > kLeastValue * lattice.edge;
+  corner.mayBeChamfered = true;
+  corner.isInside = lattice.samplesAt(c).value() > kLeastValue * lattice.edge;
 }
 
 /// What is known of what the walls leave at a corner without asking there: it changes by no more
@@ -202,15 +222,16 @@ private:
     const double least = kLeastValue * edge_;
     constexpr double kFar = 2.0; // edges: no other surface comes near enough for a chamfer
     const Vec3 x = positionOf(corner.place);
-    if (region_.quadric) corner.cut = cutAt(region_, x);
-    const bool isNearCut = corner.cut && std::abs(corner.cut->value) < kFar * edge_;
+    std::optional<Sample> cut;
+    if (region_.quadric) cut = cutAt(region_, x);
+    const bool isNearCut = cut && std::abs(cut->value) < kFar * edge_;
     const Bounds& bounds = bounds_[c];
-    corner.isInside = (!corner.cut || corner.cut->value > least) && bounds.atMost > 0.0;
+    corner.isInside = (!cut || cut->value > least) && bounds.atMost > 0.0;
     if (!corner.isInside || isFarBehind(c)) return;
     if (!corner.inset && (isNearCut || bounds.atLeast <= least))
       corner.inset = probe_.at(x, kFar * edge_, bounds.atLeast > -region_.wall);
     corner.mayBeChamfered = corner.inset.has_value();
-    corner.isInside = corner.value(edge_) > least;
+    corner.isInside = samplesOf(corner, cut, edge_).value() > least;
   }
 
   /// Those of a block.
@@ -310,7 +331,7 @@ void addMissing(const Region& region, BorderLattice& lattice) {
         const auto known = static_cast<int>(lattice.corners.size());
         lattice.addCube(other);
         for (int c = known; c < static_cast<int>(lattice.corners.size()); ++c) {
-          sampleCorner(region, probe, c, lattice);
+          sampleCorner(probe, c, lattice);
         }
       }
     }
@@ -326,7 +347,7 @@ void tame(std::vector<int> wild, BorderLattice& lattice) {
     if (cutOnce()[lattice.cornersInside(cube)]) continue;
     const auto valueInside = [&](int c) {
       const Corner& corner = lattice.corners[at(c)];
-      return corner.isInside ? corner.value(lattice.edge) : kInfinity;
+      return corner.isInside ? lattice.samplesAt(c).value() : kInfinity;
     };
     const auto& corners = lattice.cubes[at(cube)];
     Corner& least =
@@ -354,26 +375,16 @@ std::size_t PlaceNumbers::hash(const Place& place) {
   return hash ^ hash >> 33;
 }
 
-/// Two surfaces at an acute angle are kept apart: their triangles would cross each other where the
-/// region between them ends. The more acute, the wider apart.
-std::optional<Sample> Corner::chamfer(double edge) const {
-  constexpr double kBegins = -0.5; // cosine between the slopes
-  constexpr double kWhole = -0.9;
-  constexpr double kApart = 0.4; // edges
-  if (!mayBeChamfered || !inset || !cut) return {};
-  const double cosine = inset->slope.dot(cut->slope);
-  const Vec3 slope = inset->slope + cut->slope;
-  const double steepness = slope.norm();
-  if (cosine > kBegins || steepness < 1e-9) return {};
-  const double apart = kApart * edge * std::min((cosine - kBegins) / (kWhole - kBegins), 1.0);
-  return Sample{(inset->value + cut->value - apart) / steepness, slope / steepness};
+double CornerSamples::value() const {
+  constexpr double kFar = std::numeric_limits<double>::max();
+  return std::min(
+      {inset ? inset->value : kFar, cut ? cut->value : kFar, chamfer ? chamfer->value : kFar});
 }
 
-double Corner::value(double edge) const {
-  constexpr double kFar = std::numeric_limits<double>::max();
-  const std::optional<Sample> between = chamfer(edge);
-  return std::min(
-      {inset ? inset->value : kFar, cut ? cut->value : kFar, between ? between->value : kFar});
+CornerSamples BorderLattice::samplesAt(int corner) const {
+  std::optional<Sample> cut;
+  if (quadric) cut = cutAt(*quadric, transition, positionOf(corner));
+  return samplesOf(corners[static_cast<std::size_t>(corner)], cut, edge);
 }
 
 int BorderLattice::cubeAt(const Place& place) const {
@@ -415,6 +426,8 @@ BorderLattice borderLattice(const Region& region, double edge) {
   BorderLattice lattice;
   lattice.origin = region.surface.vertices().colwise().minCoeff().transpose();
   lattice.edge = edge;
+  lattice.quadric = region.quadric;
+  lattice.transition = region.transition;
   const Vec3 high = region.surface.vertices().colwise().maxCoeff().transpose();
   addCrossed(region, high - lattice.origin, lattice);
   addMissing(region, lattice);

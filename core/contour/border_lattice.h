@@ -52,7 +52,7 @@ private:
   int count_ = 0;
 };
 
-/// A corner of cubes.
+/// A corner of cubes. There are very many: the quadric is evaluated again where it is needed.
 struct Corner {
   Place place;
   /// Not where the value is negative, and not everywhere else, see `borderLattice`.
@@ -62,12 +62,18 @@ struct Corner {
   /// Whether inset and cut may come together here at an acute angle.
   bool mayBeChamfered = false;
   /// Empty: so far inside that it does not matter.
-  std::optional<Sample> inset = {}, cut = {};
+  std::optional<Sample> inset = {};
+};
 
-  /// Where they do: what cuts the edge between them off, in cubes of this edge.
-  std::optional<Sample> chamfer(double edge) const;
-  /// Of the region, about a signed distance; large where both are empty.
-  double value(double edge) const;
+/// What the region is like at a corner.
+struct CornerSamples {
+  /// The walls and the quadric; empty: they do not matter.
+  std::optional<Sample> inset, cut;
+  /// What cuts the edge between them off, where they come together at an acute angle.
+  std::optional<Sample> chamfer;
+
+  /// Of the region, about a signed distance; large where all are empty.
+  double value() const;
 };
 
 /// The cubes of one size that the border of the region passes through. In each the corners that
@@ -76,6 +82,8 @@ struct Corner {
 struct BorderLattice {
   Vec3 origin = Vec3::Zero();
   double edge = 0.0;
+  std::optional<LayeredQuadric> quadric = {}; ///< and its transition: the region's
+  double transition = 0.0;
   std::deque<Corner> corners; ///< many: a vector that grows would hold them twice
   /// Corner i of a cube is the one at its place plus (i & 1, i >> 1 & 1, i >> 2).
   std::vector<std::array<int, 8>> cubes;
@@ -90,6 +98,7 @@ struct BorderLattice {
   Vec3 positionOf(int corner) const {
     return origin + edge * corners[static_cast<std::size_t>(corner)].place.cast<double>();
   }
+  CornerSamples samplesAt(int corner) const;
   /// A bit for each corner of a cube that is inside.
   unsigned cornersInside(int cube) const;
 

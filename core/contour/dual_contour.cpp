@@ -123,18 +123,18 @@ public:
   }
 
   void connect() {
-    for (std::size_t c = 0; c < vertexOf_.size(); ++c) {
-      for (int axis = 0; vertexOf_[c] >= 0 && axis < 3; ++axis) connectAround(c, axis);
-    }
-    const auto count = static_cast<Eigen::Index>(onEdges_.size());
+    contour_.mesh.faces.resize(2 * crossedEdges(), 3);
+    forCrossedEdges([&](std::size_t cube, int axis) { connectAround(cube, axis); });
     Points& vertices = contour_.mesh.vertices;
     const Eigen::Index n = vertices.rows();
+    const auto count = static_cast<Eigen::Index>(onEdges_.size());
     vertices.conservativeResize(n + count, 3);
     for (Eigen::Index i = 0; i < count; ++i) {
       vertices.row(n + i) = onEdges_[static_cast<std::size_t>(i)].transpose();
     }
-    contour_.mesh.faces = Eigen::Map<const Faces>(
-        triangles_.data(), static_cast<Eigen::Index>(triangles_.size()) / 3, 3);
+    const auto inFans = static_cast<Eigen::Index>(fans_.size()) / 3;
+    contour_.mesh.faces.conservativeResize(connected_ + inFans, 3);
+    contour_.mesh.faces.bottomRows(inFans) = Eigen::Map<const Faces>(fans_.data(), inFans, 3);
   }
 
   Contour result() && { return std::move(contour_); }
@@ -142,6 +142,24 @@ public:
 private:
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   const Corner& corner(int c) const { return lattice_.corners[at(c)]; }
+
+  /// `visit`(cube, axis): the edge along the axis that begins at the cube's first corner.
+  template <class Visit>
+  void forCrossedEdges(const Visit& visit) const {
+    for (std::size_t c = 0; c < vertexOf_.size(); ++c) {
+      if (vertexOf_[c] < 0) continue;
+      const std::array<int, 8>& corners = lattice_.cubes[c];
+      for (int axis = 0; axis < 3; ++axis) {
+        if (corner(corners[0]).isInside != corner(corners[at(1 << axis)]).isInside) visit(c, axis);
+      }
+    }
+  }
+
+  Eigen::Index crossedEdges() const {
+    Eigen::Index count = 0;
+    forCrossedEdges([&](std::size_t, int) { ++count; });
+    return count;
+  }
 
   struct Crossing {
     Vec3 point;
@@ -152,14 +170,14 @@ private:
 
   /// On the edge between a corner inside and one that is not.
   Crossing crossing(int inside, int outside) const {
-    const Corner& a = corner(inside);
-    const Corner& b = corner(outside);
     const Vec3 from = lattice_.positionOf(inside);
     const Vec3 way = lattice_.positionOf(outside) - from;
     constexpr double kAwayFromTakenOut = 0.6;
-    if (b.isTakenOut) return {from + kAwayFromTakenOut * way, On::Chamfer, {}};
+    if (corner(outside).isTakenOut) return {from + kAwayFromTakenOut * way, On::Chamfer, {}};
     constexpr double kAlmostAll = 0.98;
-    if (b.value(lattice_.edge) > 0.0) return beyond(b, from + way, from + kAlmostAll * way);
+    const CornerSamples b = lattice_.samplesAt(outside);
+    if (b.value() > 0.0) return beyond(b, from + way, from + kAlmostAll * way);
+    const CornerSamples a = lattice_.samplesAt(inside);
     Root first;
     On on = On::Inset;
     const auto consider = [&](const std::optional<Sample>& atA, const std::optional<Sample>& atB,
@@ -172,23 +190,23 @@ private:
     };
     consider(a.inset, b.inset, On::Inset);
     consider(a.cut, b.cut, On::Cut);
-    consider(a.chamfer(lattice_.edge), b.chamfer(lattice_.edge), On::Chamfer);
+    consider(a.chamfer, b.chamfer, On::Chamfer);
     if (!(first.t <= 1.0)) return {from + kAwayFromTakenOut * way, On::Chamfer, {}};
     const Vec3 point = from + first.t * way;
     return {point, on, {{point, first.slope}}};
   }
 
-  /// Of a corner that is left out although the border lies behind it.
-  Crossing beyond(const Corner& corner, const Vec3& x, const Vec3& point) const {
-    std::optional<Sample> least = corner.inset;
+  /// On an edge that ends at x, which is left out although the border lies behind it.
+  Crossing beyond(const CornerSamples& samples, const Vec3& x, const Vec3& point) const {
+    std::optional<Sample> least = samples.inset;
     On on = On::Inset;
     const auto consider = [&](const std::optional<Sample>& sample, On candidate) {
       if (!sample || (least && least->value <= sample->value)) return;
       least = sample;
       on = candidate;
     };
-    consider(corner.cut, On::Cut);
-    consider(corner.chamfer(lattice_.edge), On::Chamfer);
+    consider(samples.cut, On::Cut);
+    consider(samples.chamfer, On::Chamfer);
     if (!least) return {point, On::Chamfer, {}};
     return {point, on, {{x - least->value * least->slope, least->slope}}};
   }
@@ -225,7 +243,6 @@ private:
   void connectAround(std::size_t cube, int axis) {
     const int a = lattice_.cubes[cube][0];
     const int b = lattice_.cubes[cube][at(1 << axis)];
-    if (corner(a).isInside == corner(b).isInside) return;
     const Place u = Place::Unit((axis + 1) % 3);
     const Place w = Place::Unit((axis + 2) % 3);
     const Place place = corner(a).place;
@@ -247,9 +264,8 @@ private:
     if (isFirst && isSecond ? quality(ring, 0) < quality(ring, 1) : isSecond) {
       std::rotate(ring.begin(), ring.begin() + 1, ring.end());
     }
-    for (const int v : {ring[0], ring[1], ring[2], ring[0], ring[2], ring[3]}) {
-      triangles_.push_back(v);
-    }
+    contour_.mesh.faces.row(connected_++) << ring[0], ring[1], ring[2];
+    contour_.mesh.faces.row(connected_++) << ring[0], ring[2], ring[3];
   }
 
   void fan(const std::array<int, 4>& ring, const Crossing& crossing) {
@@ -257,7 +273,7 @@ private:
     contour_.on.push_back(crossing.on);
     onEdges_.push_back(crossing.point);
     for (std::size_t k = 0; k < 4; ++k) {
-      for (const int v : {ring[k], ring[(k + 1) % 4], middle}) triangles_.push_back(v);
+      for (const int v : {ring[k], ring[(k + 1) % 4], middle}) fans_.push_back(v);
     }
   }
 
@@ -302,8 +318,9 @@ private:
   const BorderLattice& lattice_;
   std::vector<int> vertexOf_; ///< for every cube, or −1
   Contour contour_;
-  std::vector<Vec3> onEdges_; ///< vertices that follow those of cubes
-  std::vector<int> triangles_;
+  Eigen::Index connected_ = 0; ///< triangles of quadrilaterals
+  std::vector<Vec3> onEdges_;  ///< vertices that follow those of cubes
+  std::vector<int> fans_;      ///< triangles that follow those of quadrilaterals
 };
 
 } // namespace

@@ -32,24 +32,27 @@ double curvatureOf(const Moments& q) {
 
 } // namespace
 
-Sample cutAt(const Region& region, const Vec3& x) {
-  const LayeredQuadric& layered = *region.quadric;
+Sample cutAt(const LayeredQuadric& layered, double transition, const Vec3& x) {
   const std::vector<double>& heights = layered.heights;
   QuadricAt q = quadricAt(layered.quadrics[layered.layerAt(x.z())], x);
-  const auto above = std::lower_bound(heights.begin(), heights.end(), x.z() - region.transition);
-  if (above != heights.end() && *above < x.z() + region.transition) {
+  const auto above = std::lower_bound(heights.begin(), heights.end(), x.z() - transition);
+  if (above != heights.end() && *above < x.z() + transition) {
     // Of heights nearer to each other than that the lowest is taken.
     const auto layer = static_cast<std::size_t>(above - heights.begin());
     const QuadricAt below = quadricAt(layered.quadrics[layer], x);
     q = quadricAt(layered.quadrics[layer + 1], x);
-    const double share = 0.5 + 0.5 * (x.z() - *above) / region.transition;
+    const double share = 0.5 + 0.5 * (x.z() - *above) / transition;
     const double step = q.value - below.value;
     q.value = below.value + share * step;
     q.gradient = below.gradient + share * (q.gradient - below.gradient);
-    q.gradient.z() += 0.5 * step / region.transition;
+    q.gradient.z() += 0.5 * step / transition;
   }
   const double steepness = std::max(q.gradient.norm(), kTiny);
   return {q.value / steepness, q.gradient / steepness};
+}
+
+Sample cutAt(const Region& region, const Vec3& x) {
+  return cutAt(*region.quadric, region.transition, x);
 }
 
 Side sideOfCut(const Region& region, const Vec3& x, double radius) {

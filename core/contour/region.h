@@ -32,7 +32,10 @@ struct Region {
   const GridFunction* fill = nullptr; ///< null, or positive where nothing carries a ceiling
 };
 
-/// Of the quadric, in lengths. \pre the region has one
+/// Of a quadric, in lengths. `transition`: see `Region`.
+Sample cutAt(const LayeredQuadric& layered, double transition, const Vec3& x);
+
+/// The same of the region's. \pre it has one
 Sample cutAt(const Region& region, const Vec3& x);
 
 /// The sign of the quadric within `radius` of x; Both where it may vanish there.
