@@ -63,13 +63,14 @@ double wallBeforeRounding(const CavityTask& task) {
 
 constexpr double kSliver = 5.0; // degrees
 
-/// Not inspected, and without the outer surface, which is large and the same for all.
-CavityResult resultOf(const CavityTask& task, const TriangleMesh& mesh) {
+/// Without the outer surface, which is large and the same for all.
+CavityResult resultOf(Points inner, const Faces& faces, Inspection inspection) {
   CavityResult result;
   result.shape = CavityShape::BestPossible;
   result.status = CavityStatus::Found;
-  result.inner = delivered(task, mesh.vertices);
-  result.cavity.faces = mesh.faces;
+  result.inner = std::move(inner);
+  result.cavity.faces = faces;
+  result.inspection = std::move(inspection);
   return result;
 }
 
@@ -88,92 +89,90 @@ public:
   int evaluations() const { return evaluations_; }
   double secondsInspection() const { return secondsInspection_; }
 
-  Candidate unmoved() const { return {Points(0, 3), bodyOf(found_)}; }
+  Candidate unmoved() const { return {Points(0, 3), bodyAt(found_.mesh.vertices)}; }
 
   /// With creases that move, which leave the walls' surface a little, and the constraints with it.
   /// Empty: the wall is not kept.
   std::optional<Candidate> withMovedCreases(double wall) {
-    Contour contour = found_;
-    evaluations_ += polish(task_, quadric_, Moving::CutAndCreases, edge_, {}, contour).evaluations;
-    if (!keepWall(clearance_, wall, contour.mesh).empty()) return std::nullopt;
-    adjust({}, contour);
-    return candidateOf(std::move(contour));
+    Points vertices = found_.mesh.vertices;
+    evaluations_ +=
+        polish(task_, quadric_, Moving::CutAndCreases, edge_, {}, found_, vertices).evaluations;
+    if (!keepWall(clearance_, wall, found_.mesh.faces, vertices).empty()) return std::nullopt;
+    return adjusted(std::move(vertices));
   }
 
-  Candidate adjusted() {
-    Contour contour = found_;
-    adjust({}, contour);
-    return candidateOf(std::move(contour));
-  }
+  Candidate adjusted() { return adjusted(found_.mesh.vertices); }
 
   /// Inspected. Vertices whose faces do not pass, or have become slivers, go back to where they
   /// were and stay there with those around them, while the others are adjusted anew.
   CavityResult passed(Points vertices) {
     constexpr int kRounds = 5;
-    Contour contour = found_;
-    if (vertices.rows() > 0) contour.mesh.vertices = std::move(vertices);
-    std::vector<char> held(static_cast<std::size_t>(contour.mesh.vertices.rows()), 0);
+    if (vertices.rows() == 0) vertices = found_.mesh.vertices;
+    std::vector<char> held(static_cast<std::size_t>(vertices.rows()), 0);
     std::optional<CavityResult> clean; // but for slivers
     const auto isFeasible = [&](const CavityResult& result) {
       return hollowBody(task_, result).violation <= kFeasibility;
     };
     for (int round = 0;; ++round) {
-      CavityResult result = inspectedResultOf(contour.mesh);
+      CavityResult result = inspectedAt(vertices);
       const bool isClean = result.inspection.isClean();
-      if (round == kRounds || !holdFaulty(result.inspection, contour, held)) {
+      if (round == kRounds || !holdFaulty(result.inspection, held, vertices)) {
         const bool isLess = !isClean || (clean && isFeasible(*clean) && !isFeasible(result));
-        return clean && isLess ? *std::move(clean) : result;
+        if (clean && isLess) return *std::move(clean);
+        return result;
       }
       if (isClean) clean = std::move(result);
-      adjust(held, contour);
+      adjust(held, vertices);
     }
   }
 
 private:
-  Body bodyOf(const Contour& contour) const {
-    return hollowBody(task_, resultOf(task_, contour.mesh));
+  Body bodyAt(const Points& vertices) const {
+    return hollowBody(task_, delivered(task_, vertices), found_.mesh.faces);
   }
 
-  Candidate candidateOf(Contour contour) const {
-    const Body body = bodyOf(contour);
-    return {std::move(contour.mesh.vertices), body};
+  Candidate adjusted(Points vertices) {
+    adjust({}, vertices);
+    const Body body = bodyAt(vertices);
+    return {std::move(vertices), body};
   }
 
-  void adjust(const std::vector<char>& held, Contour& contour) {
+  void adjust(const std::vector<char>& held, Points& vertices) {
     constexpr int kTimes = 3; // each goes a part of an edge's length at most
     for (int i = 0; i < kTimes; ++i) {
-      const Polished polished = polish(task_, quadric_, Moving::CutAlone, edge_, held, contour);
+      const Polished polished =
+          polish(task_, quadric_, Moving::CutAlone, edge_, held, found_, vertices);
       evaluations_ += polished.evaluations;
       if (polished.violation <= kFeasibility && !polished.isFarthest) break;
     }
   }
 
-  CavityResult inspectedResultOf(const TriangleMesh& mesh) {
-    CavityResult result = resultOf(task_, mesh);
+  CavityResult inspectedAt(const Points& vertices) {
+    Points inner = delivered(task_, vertices);
     const Stopwatch time;
-    result.inspection = inspect(result.inner, result.cavity.faces, task_.surface, task_.wall, false,
-                                LookFirst::ForAll, &clearance_, task_.stored);
+    Inspection inspection = inspect(inner, found_.mesh.faces, task_.surface, task_.wall, false,
+                                    LookFirst::ForAll, &clearance_, task_.stored);
     secondsInspection_ += time.seconds();
-    return result;
+    return resultOf(std::move(inner), found_.mesh.faces, std::move(inspection));
   }
 
   /// Whether it has an angle below 5° that it had not where it comes from.
-  bool hasBecomeSliver(const Contour& contour, Eigen::Index f) const {
+  bool hasBecomeSliver(const Points& vertices, Eigen::Index f) const {
     const auto angle = [&](const Points& x) {
-      const auto corner = [&](int k) { return x.row(contour.mesh.faces(f, k)).transpose(); };
+      const auto corner = [&](int k) { return x.row(found_.mesh.faces(f, k)).transpose(); };
       return leastAngle(corner(0), corner(1), corner(2));
     };
-    return angle(contour.mesh.vertices) < kSliver && angle(found_.mesh.vertices) >= kSliver;
+    return angle(vertices) < kSliver && angle(found_.mesh.vertices) >= kSliver;
   }
 
   /// Whether there was one that was not held yet.
-  bool holdFaulty(const Inspection& inspection, Contour& contour, std::vector<char>& held) const {
-    const Faces& faces = contour.mesh.faces;
+  bool holdFaulty(const Inspection& inspection, std::vector<char>& held, Points& vertices) const {
+    const Faces& faces = found_.mesh.faces;
     std::vector<char> faulty(held.size(), 0);
     for (const int v : inspection.crossing) faulty[static_cast<std::size_t>(v)] = 1;
     for (const int v : inspection.thin) faulty[static_cast<std::size_t>(v)] = 1;
     for (Eigen::Index f = 0; f < faces.rows(); ++f) {
-      if (!hasBecomeSliver(contour, f)) continue;
+      if (!hasBecomeSliver(vertices, f)) continue;
       for (const int v : faces.row(f)) faulty[static_cast<std::size_t>(v)] = 1;
     }
     bool isNew = false;
@@ -184,7 +183,7 @@ private:
       for (const int v : corners) {
         isNew = isNew || held[static_cast<std::size_t>(v)] == 0;
         held[static_cast<std::size_t>(v)] = 1;
-        contour.mesh.vertices.row(v) = found_.mesh.vertices.row(v);
+        vertices.row(v) = found_.mesh.vertices.row(v);
       }
     }
     return isNew;
@@ -253,9 +252,12 @@ bool leavesRoom(const TriangleTree& surface, double wall) {
 }
 
 /// What is left of what is possible.
+double gapOf(const CavityTask& task, const Body& body) {
+  return gapToBound(*task.bound, inputBody(task), body);
+}
+
 double gapOf(const CavityTask& task, const CavityResult& result) {
-  if (result.status != CavityStatus::Found) return 1.0;
-  return gapToBound(*task.bound, inputBody(task), hollowBody(task, result));
+  return result.status == CavityStatus::Found ? gapOf(task, hollowBody(task, result)) : 1.0;
 }
 
 /// A cavity, or what it will be like.
@@ -264,14 +266,23 @@ struct Made {
   bool isFinished = true; ///< else hardly polished and not inspected
 };
 
-/// Hardly polished, not inspected.
-CavityResult roughCavity(const CavityTask& task, double edge, const Contour& contour) {
-  const Body unmoved = hollowBody(task, resultOf(task, contour.mesh));
-  Contour adjusted = contour;
-  polish(task, task.bound->worth, Moving::CutAlone, edge, {}, adjusted);
-  CavityResult moved = resultOf(task, adjusted.mesh);
-  return servesBetter(task, hollowBody(task, moved), unmoved) ? moved
-                                                              : resultOf(task, contour.mesh);
+/// Of a contour, hardly polished.
+struct Rough {
+  Points inner; ///< delivered
+  Body body;
+};
+
+Rough roughlyPolished(const CavityTask& task, double edge, const Contour& contour) {
+  const auto roughAt = [&](const Points& vertices) {
+    Rough rough{delivered(task, vertices), {}};
+    rough.body = hollowBody(task, rough.inner, contour.mesh.faces);
+    return rough;
+  };
+  Points vertices = contour.mesh.vertices;
+  polish(task, task.bound->worth, Moving::CutAlone, edge, {}, contour, vertices);
+  Rough moved = roughAt(vertices);
+  Rough unmoved = roughAt(contour.mesh.vertices);
+  return servesBetter(task, moved.body, unmoved.body) ? std::move(moved) : std::move(unmoved);
 }
 
 /// In cubes of the set's edge. `farthest`: what may be left of what is possible for the cavity to
@@ -281,10 +292,10 @@ Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, double farth
   CavityResult rough;
   const auto isWorthIt = [&](const Contour& contour) {
     if (!std::isfinite(farthest)) return true;
-    rough = roughCavity(task, deliverable.edge, contour);
+    Rough polished = roughlyPolished(task, deliverable.edge, contour);
     const bool isWorth =
-        hollowBody(task, rough).violation > kFeasibility || gapOf(task, rough) <= farthest;
-    if (isWorth) rough = {};
+        polished.body.violation > kFeasibility || gapOf(task, polished.body) <= farthest;
+    if (!isWorth) rough = resultOf(std::move(polished.inner), contour.mesh.faces, {});
     return isWorth;
   };
   const double roomy = wallBeforeRounding(task);
@@ -354,8 +365,8 @@ double edgeThatWillDo(const CavityTask& task, const OpenedSet& deliverable) {
   coarse.edge *= kLarger;
   double gap = 0.0;
   cavityContour(coarse, task.bound->worth, [&](const Contour& contour) {
-    const CavityResult rough = roughCavity(task, coarse.edge, contour);
-    if (hollowBody(task, rough).violation <= kFeasibility) gap = gapOf(task, rough);
+    const Body body = roughlyPolished(task, coarse.edge, contour).body;
+    if (body.violation <= kFeasibility) gap = gapOf(task, body);
     return false;
   });
   if (gap <= 0.0) return deliverable.edge;
@@ -422,10 +433,11 @@ std::optional<CavityResult> uniformlyWalled(const CavityTask& task, const Opened
     if (cavity->faces.rows() <= kEnoughTriangles) break;
   }
   if (!cavity) return {};
-  CavityResult result = resultOf(task, *cavity);
+  Points inner = delivered(task, cavity->vertices);
   const Stopwatch time;
-  result.inspection = inspect(result.inner, result.cavity.faces, task.surface, task.wall, false,
-                              LookFirst::ForAll, nullptr, task.stored);
+  Inspection inspection = inspect(inner, cavity->faces, task.surface, task.wall, false,
+                                  LookFirst::ForAll, nullptr, task.stored);
+  CavityResult result = resultOf(std::move(inner), cavity->faces, std::move(inspection));
   result.effort.secondsInspection = time.seconds();
   result.effort.rounds = 1;
   result.stopReason = "walls as thick everywhere as the mass asks for";

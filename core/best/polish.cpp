@@ -13,12 +13,11 @@ namespace {
 
 /// Where each vertex goes while the quadric rises by a unit of length; 0 for those that stay.
 Points directionsOf(const Region& region, Moving moving, const std::vector<char>& held,
-                    const Contour& contour) {
-  const Points& vertices = contour.mesh.vertices;
+                    const std::vector<On>& ons, const Points& vertices) {
   Points directions = Points::Zero(vertices.rows(), 3);
   InsetProbe probe(region);
   for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
-    const On on = contour.on[static_cast<std::size_t>(v)];
+    const On on = ons[static_cast<std::size_t>(v)];
     if (on != On::Cut && (on != On::Crease || moving == Moving::CutAlone)) continue;
     if (!held.empty() && held[static_cast<std::size_t>(v)] != 0) continue;
     const Vec3 x = vertices.row(v).transpose();
@@ -39,12 +38,11 @@ Points directionsOf(const Region& region, Moving moving, const std::vector<char>
 } // namespace
 
 Polished polish(const CavityTask& task, const LayeredQuadric& quadric, Moving moving, double edge,
-                const std::vector<char>& held, Contour& contour) {
+                const std::vector<char>& held, const Contour& contour, Points& vertices) {
   constexpr double kFarthest = 0.3; // edges, root mean square of the displacements
   const Region region{task.surface, task.wall, nullptr, quadric, edge};
-  const Points directions = directionsOf(region, moving, held, contour);
+  const Points directions = directionsOf(region, moving, held, contour.on, vertices);
   const Moments outer = task.model.solidMoments + task.model.attached;
-  Points& vertices = contour.mesh.vertices;
   DisplacementTask displacement{
       task.goal,          task.weights, task.model.fillings, outer, task.model.solidMoments[0],
       contour.mesh.faces, directions,   kFarthest * edge};

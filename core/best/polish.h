@@ -20,8 +20,9 @@ struct Polished {
 
 /// Moves the vertices on the quadric as another quadric near it would have them, so that the body
 /// keeps the goal's constraints and serves its objective best. `edge`: of the cubes that the
-/// contour was made with. `held`: n flags, of vertices that stay; may be empty.
+/// contour was made with. `held`: n flags, of vertices that stay; may be empty. `vertices`: of the
+/// contour, as they become, not where its mesh has them.
 Polished polish(const CavityTask& task, const LayeredQuadric& quadric, Moving moving, double edge,
-                const std::vector<char>& held, Contour& contour);
+                const std::vector<char>& held, const Contour& contour, Points& vertices);
 
 } // namespace massprops

@@ -122,7 +122,7 @@ std::vector<int> untangle(ClearanceQuery& clearance, double wall, TriangleMesh& 
         mesh.vertices.row(v) = sum / static_cast<double>(around.size());
       }
     }
-    if (!keepWall(clearance, wall, mesh).empty()) {
+    if (!keepWall(clearance, wall, mesh.faces, mesh.vertices).empty()) {
       mesh.vertices = before;
       break;
     }
@@ -141,7 +141,7 @@ struct Troubles {
 Troubles troublesLeft(ClearanceQuery& clearance, double wall, Contour& contour) {
   TriangleMesh& mesh = contour.mesh;
   Troubles troubles;
-  for (const int v : keepWall(clearance, wall, mesh))
+  for (const int v : keepWall(clearance, wall, mesh.faces, mesh.vertices))
     troubles.thin.emplace_back(mesh.vertices.row(v).transpose());
   if (!troubles.thin.empty()) return troubles;
   for (const int f : untangle(clearance, wall, mesh)) {
@@ -181,7 +181,7 @@ std::optional<CavityContour> cavityContour(const OpenedSet& set,
     if (raw.mesh.faces.rows() == 0) return CavityContour{{}, set.edge, fresh};
     Contour contour = smoothed(region, set.edge, std::move(raw));
     ClearanceQuery clearance(set.surface);
-    keepWallNearly(clearance, set.wall, contour.mesh);
+    keepWallNearly(clearance, set.wall, contour.mesh.faces, contour.mesh.vertices);
     if (isWorthIt && !isWorthIt(contour))
       return CavityContour{std::move(contour), set.edge, std::move(clearance), false};
     const Troubles troubles = troublesLeft(clearance, set.wall, contour);

@@ -25,7 +25,6 @@ Vector shortfalls(double wall, const Vector& distanceOfFace, const Faces& faces,
 
 /// Those with a vertex that does not rest.
 Faces movingFaces(const Faces& faces, const std::vector<char>& rests) {
-  if (rests.empty()) return faces;
   std::vector<Eigen::Index> moving;
   for (Eigen::Index f = 0; f < faces.rows(); ++f) {
     const auto corners = faces.row(f);
@@ -46,16 +45,16 @@ std::vector<int> positive(const Vector& values) {
 
 /// Moves vertices by what is missing, and `more` times that.
 void moveInwards(const ClearanceQuery& clearance, double wall, const Vector& missing, double more,
-                 TriangleMesh& cavity) {
+                 const Faces& faces, Points& vertices) {
   const TriangleTree& surface = clearance.other();
   constexpr Eigen::Index kRun = 256;
-  Points targets = cavity.vertices;
-  const Points normals = vertexNormals(cavity.vertices, cavity.faces);
+  Points targets = vertices;
+  const Points normals = vertexNormals(vertices, faces);
   const std::vector<int> thin = positive(missing);
   forChunks(static_cast<Eigen::Index>(thin.size()), kRun, [&](const Chunk& chunk) {
     for (Eigen::Index i = chunk.begin; i < chunk.end; ++i) {
       const int v = thin[static_cast<std::size_t>(i)];
-      const Vec3 x = cavity.vertices.row(v).transpose();
+      const Vec3 x = vertices.row(v).transpose();
       const int near = clearance.nearestFace()[static_cast<std::size_t>(v)];
       const Vec3 next = surface.clearance(x, surface.nearestOn(near, x)).point;
       const Vec3 inwards = -normals.row(v).transpose();
@@ -64,31 +63,33 @@ void moveInwards(const ClearanceQuery& clearance, double wall, const Vector& mis
                         ((x - next).normalized() + inwards).normalized().transpose();
     }
   });
-  moveSoundly(targets, cavity.faces, cavity.vertices);
+  moveSoundly(targets, faces, vertices);
 }
 
 } // namespace
 
-void keepWallNearly(ClearanceQuery& clearance, double wall, TriangleMesh& cavity) {
-  const Vector distances = clearance.faceDistancesAtMost(cavity.vertices, cavity.faces, wall);
-  moveInwards(clearance, wall, shortfalls(wall, distances, cavity.faces, cavity.vertices.rows()),
-              0.0, cavity);
+void keepWallNearly(ClearanceQuery& clearance, double wall, const Faces& faces, Points& vertices) {
+  const Vector distances = clearance.faceDistancesAtMost(vertices, faces, wall);
+  moveInwards(clearance, wall, shortfalls(wall, distances, faces, vertices.rows()), 0.0, faces,
+              vertices);
 }
 
-std::vector<int> keepWall(ClearanceQuery& clearance, double wall, TriangleMesh& cavity,
-                          const std::vector<char>& rests) {
+std::vector<int> keepWall(ClearanceQuery& clearance, double wall, const Faces& faces,
+                          Points& vertices, const std::vector<char>& rests) {
   constexpr int kRounds = 12;
   constexpr double kGrowth = 0.5;
-  const Faces faces = movingFaces(cavity.faces, rests);
+  Faces some;
+  if (!rests.empty()) some = movingFaces(faces, rests);
+  const Faces& moving = rests.empty() ? faces : some;
   for (int round = 0;; ++round) {
-    const Vector& distances = clearance.measureFaces(cavity.vertices, faces, wall);
-    Vector missing = shortfalls(wall, distances, faces, cavity.vertices.rows());
+    const Vector& distances = clearance.measureFaces(vertices, moving, wall);
+    Vector missing = shortfalls(wall, distances, moving, vertices.rows());
     for (std::size_t v = 0; v < rests.size(); ++v) {
       if (rests[v] != 0) missing[static_cast<Eigen::Index>(v)] = 0.0;
     }
     std::vector<int> thin = positive(missing);
     if (thin.empty() || round == kRounds) return thin;
-    moveInwards(clearance, wall, missing, kGrowth * round, cavity);
+    moveInwards(clearance, wall, missing, kGrowth * round, faces, vertices);
   }
 }
 

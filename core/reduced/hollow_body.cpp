@@ -25,6 +25,12 @@ Body bodyOf(const CavityTask& task, const Goal& goal, const std::vector<Moments>
   return body;
 }
 
+Body hollowed(const CavityTask& task, const Goal& goal, const Moments& outer, const Points& inner,
+              const Faces& faces) {
+  return bodyOf(task, goal, filledMoments(outer, inner, faces, task.model.fillings),
+                outer[0] - moments(inner, faces)[0]);
+}
+
 } // namespace
 
 Body inputBody(const CavityTask& task) {
@@ -38,15 +44,16 @@ Body inputBody(const CavityTask& task) {
 }
 
 Body hollowBody(const CavityTask& task, const CavityResult& cavity) {
-  const Moments outer = outerMoments(task, cavity);
-  const Moments inner = moments(cavity.inner, cavity.cavity.faces);
   const std::unique_ptr<Goal> moved = task.goalFor ? task.goalFor(cavity.outer) : nullptr;
-  Body body = bodyOf(task, moved ? *moved : task.goal,
-                     filledMoments(outer, cavity.inner, cavity.cavity.faces, task.model.fillings),
-                     outer[0] - inner[0]);
+  Body body = hollowed(task, moved ? *moved : task.goal, outerMoments(task, cavity), cavity.inner,
+                       cavity.cavity.faces);
   body.objective +=
       offsetObjective(*task.model.surface, task.weights, cavity.innerOffsets, cavity.outerOffsets);
   return body;
+}
+
+Body hollowBody(const CavityTask& task, const Points& inner, const Faces& faces) {
+  return hollowed(task, task.goal, task.model.solidMoments + task.model.attached, inner, faces);
 }
 
 bool servesBetter(const CavityTask& task, const Body& a, const Body& b) {

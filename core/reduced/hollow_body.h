@@ -23,6 +23,9 @@ Body inputBody(const CavityTask& task);
 /// With the cavity that was found. \pre its status is Found or NoGain
 Body hollowBody(const CavityTask& task, const CavityResult& cavity);
 
+/// With a best possible cavity, behind an outer surface that rests.
+Body hollowBody(const CavityTask& task, const Points& inner, const Faces& faces);
+
 /// Whether the first violates the constraints less or, where both keep them, has the greater
 /// measure or, where that is not all that counts, the lower objective.
 bool servesBetter(const CavityTask& task, const Body& a, const Body& b);

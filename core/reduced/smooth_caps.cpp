@@ -290,13 +290,14 @@ std::optional<CavityResult> Capping::closed(const Stretched& caps, double farthe
   for (int round = 0; round < kRounds; ++round) {
     if (!keepsConstraints(result) && !press(*caps.skin, farthest, atWall, result))
       return std::nullopt;
-    TriangleMesh mesh{result.inner, result.cavity.faces};
-    const bool isThin = !keepWall(clearance, kBeyondWall * task_.wall, mesh, rests).empty();
-    if (mesh.vertices == result.inner) break;
-    for (Eigen::Index v = n_; v < mesh.vertices.rows(); ++v) {
-      if (mesh.vertices.row(v) != result.inner.row(v)) atWall[at(v)] = 1;
+    Points moved = result.inner;
+    const bool isThin =
+        !keepWall(clearance, kBeyondWall * task_.wall, result.cavity.faces, moved, rests).empty();
+    if (moved == result.inner) break;
+    for (Eigen::Index v = n_; v < moved.rows(); ++v) {
+      if (moved.row(v) != result.inner.row(v)) atWall[at(v)] = 1;
     }
-    result.inner = std::move(mesh.vertices);
+    result.inner = std::move(moved);
     if (isThin) break; // the ends where it is are given up: more rounds are slow and in vain
   }
   result.inner = task_.deliverable(result.inner);

@@ -63,7 +63,9 @@ TEST(Polish, MovesTheCutUntilTheConstraintsHold) {
   task.wall = wall;
   for (const Moving moving : {Moving::CutAlone, Moving::CutAndCreases}) {
     Contour contour = found->contour;
-    EXPECT_GT(polish(task, quadric, moving, found->edge, {}, contour).evaluations, 0);
+    EXPECT_GT(polish(task, quadric, moving, found->edge, {}, found->contour, contour.mesh.vertices)
+                  .evaluations,
+              0);
     const Vector left = goal.equalities(bodyOf(contour.mesh)).values;
     // Creases go as far as triangles stay sound.
     EXPECT_LT(left.cwiseAbs().maxCoeff(), moving == Moving::CutAlone ? 1e-5 : 1e-4);
@@ -93,7 +95,10 @@ TEST(Polish, LeavesWhatIsHeldWhereItIs) {
   std::vector<char> held(static_cast<std::size_t>(found->contour.mesh.vertices.rows()), 0);
   for (std::size_t v = 0; v < held.size(); v += 2) held[v] = 1;
   Contour contour = found->contour;
-  EXPECT_GT(polish(task, quadric, Moving::CutAlone, found->edge, held, contour).evaluations, 0);
+  EXPECT_GT(polish(task, quadric, Moving::CutAlone, found->edge, held, found->contour,
+                   contour.mesh.vertices)
+                .evaluations,
+            0);
   int moved = 0;
   for (Eigen::Index v = 0; v < contour.mesh.vertices.rows(); ++v) {
     const bool stays = contour.mesh.vertices.row(v) == found->contour.mesh.vertices.row(v);

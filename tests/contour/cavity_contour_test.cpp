@@ -214,7 +214,7 @@ TEST(WallKeeping, MovesWhatIsTooNear) {
   TriangleMesh inner = sphere(15);
   inner.vertices *= 0.93;
   ClearanceQuery clearance(tree);
-  EXPECT_TRUE(keepWall(clearance, 0.08, inner).empty());
+  EXPECT_TRUE(keepWall(clearance, 0.08, inner.faces, inner.vertices).empty());
   EXPECT_GE(ClearanceQuery(tree).measure(inner.vertices, inner.faces, 0.2).least, 0.08);
   EXPECT_GT(moments(inner.vertices, inner.faces)[0], 0.97 * 4.1888 * std::pow(0.92, 3));
 }
