@@ -68,6 +68,40 @@ void spread(const CavityTask& task, const CavityResult& found, const VertexAdjac
   });
 }
 
+/// What turned, vertices with edges that became long as far as they hang together with it or with
+/// what is solid, and the neighbours of these.
+Marks fans(const CavityTask& task, const CavityResult& found, const VertexAdjacency& neighbours,
+           const Marks& turned) {
+  constexpr double kLong = 2.0; // times what it was
+  const Points& before = task.model.surface->vertices;
+  const Marks& solid = found.cavity.solid;
+  const auto hasLongEdge = [&](int v) {
+    const IndexRange around = neighbours[at(v)];
+    return std::any_of(around.begin(), around.end(), [&](int w) {
+      return solid[at(w)] == 0 && (found.inner.row(v) - found.inner.row(w)).squaredNorm() >
+                                      kLong * kLong * (before.row(v) - before.row(w)).squaredNorm();
+    });
+  };
+  std::vector<int> seeds;
+  for (std::size_t v = 0; v < turned.size(); ++v) {
+    if (turned[v] != 0 || solid[v] != 0) seeds.push_back(static_cast<int>(v));
+  }
+  Marks marks = turned;
+  flood(neighbours, std::move(seeds), [&](int w) {
+    if (marks[at(w)] != 0 || solid[at(w)] != 0 || !hasLongEdge(w)) return false;
+    marks[at(w)] = 1;
+    return true;
+  });
+  Marks all = marks;
+  for (std::size_t v = 0; v < marks.size(); ++v) {
+    if (marks[v] == 0) continue;
+    for (const int w : neighbours[v]) {
+      if (solid[at(w)] == 0) all[at(w)] = 1;
+    }
+  }
+  return all;
+}
+
 } // namespace
 
 CavityEnds cavityEnds(const CavityTask& task, const CavityResult& found,
@@ -76,7 +110,8 @@ CavityEnds cavityEnds(const CavityTask& task, const CavityResult& found,
   CavityEnds ends;
   ends.turned = turnedAway(task, found);
   spread(task, found, neighbours, ends.turned);
-  const auto goes = [&](int v) { return ends.turned[at(v)] != 0 || solid[at(v)] != 0; };
+  ends.fan = fans(task, found, neighbours, ends.turned);
+  const auto goes = [&](int v) { return ends.fan[at(v)] != 0 || solid[at(v)] != 0; };
   const auto belongs = [&](int v) {
     const IndexRange around = neighbours[at(v)];
     return solid[at(v)] == 0 && (goes(v) || std::any_of(around.begin(), around.end(), goes));

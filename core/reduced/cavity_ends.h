@@ -13,7 +13,10 @@ struct CavityEnds {
   /// Those of the fans that an offset surface ends in: it turns away from the outer surface there
   /// and runs to the skeleton.
   std::vector<char> turned;
-  /// The end that a vertex belongs to, turned or next to what is turned or solid; −1: to none.
+  /// These, vertices whose edges became long as far as they hang together with them or with what is
+  /// solid, and the neighbours of both.
+  std::vector<char> fan;
+  /// The end that a vertex belongs to, of a fan or next to what is of a fan or solid; −1: to none.
   /// Vertices of different ends are no neighbours.
   std::vector<int> end;
   int count = 0;

@@ -5,7 +5,9 @@
 #include "core/contour/wall_keeping.h"
 #include "core/goals/objective.h"
 #include "core/mesh/components.h"
+#include "core/mesh/connectivity.h"
 #include "core/mesh/hole_filling.h"
+#include "core/mesh/refinement.h"
 #include "core/mesh/signed_volume.h"
 #include "core/optimum/layered_quadric.h"
 #include "core/reduced/cavity_ends.h"
@@ -15,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -52,25 +55,38 @@ struct Capped {
   std::vector<int> end; ///< of every vertex; −1
 };
 
-/// The triangles between a hole's border, divided, over the vertices of the whole and new ones.
-TriangleMesh dividedCap(const Points& vertices, const Faces& kept, const VertexCorners& corners,
-                        const Faces& cap) {
+bool isClosed(const TriangleMesh& mesh) {
+  const EdgeCounts wrong = countEdges(mesh.vertices.rows(), mesh.faces);
+  return wrong.boundary + wrong.nonManifold + wrong.incoherent == 0;
+}
+
+/// What an end is like.
+enum class End {
+  Cap,    ///< closed anew
+  Faired, ///< the fan itself, without its folds
+  AsFound
+};
+
+/// A part that is to be smooth, with other triangles, over the vertices of the whole and new ones:
+/// of a cap those between a hole's border, divided.
+TriangleMesh withOtherTriangles(const Points& vertices, const Faces& kept,
+                                const VertexCorners& corners, const Faces& part, End kind) {
   std::vector<Eigen::Index> around;
-  for (const int v : cap.reshaped()) {
+  for (const int v : part.reshaped()) {
     for (const int c : corners.at(v)) around.push_back(c / 3);
   }
   std::sort(around.begin(), around.end());
   around.erase(std::unique(around.begin(), around.end()), around.end());
   const auto first = static_cast<Eigen::Index>(around.size());
-  Faces faces(first + cap.rows(), 3);
+  Faces faces(first + part.rows(), 3);
   for (Eigen::Index i = 0; i < first; ++i) faces.row(i) = kept.row(around[at(i)]);
-  faces.bottomRows(cap.rows()) = cap;
+  faces.bottomRows(part.rows()) = part;
   const Submesh patch = submesh(vertices, faces);
-  const TriangleMesh divided = refinedFilling(patch.mesh, first);
-  if (divided.faces.rows() == 0) return {Points(0, 3), cap};
+  const TriangleMesh other =
+      kind == End::Faired ? remeshedPart(patch.mesh, first) : refinedFilling(patch.mesh, first);
+  if (other.faces.rows() == 0) return {Points(0, 3), part};
   const Eigen::Index old = patch.mesh.vertices.rows();
-  return {divided.vertices.bottomRows(divided.vertices.rows() - old),
-          divided.faces.unaryExpr([&](int v) {
+  return {other.vertices.bottomRows(other.vertices.rows() - old), other.faces.unaryExpr([&](int v) {
             return v < old ? patch.vertexOf[at(v)] : static_cast<int>(vertices.rows() + v - old);
           })};
 }
@@ -93,11 +109,20 @@ public:
   CavityResult run();
 
 private:
+  End kindOf(int end) const;
+  bool isAt(End kind, int vertex) const;
+  Marks bridges() const;
+  bool tryOtherwise();
   int roughEnds() const;
   /// What has not been inspected yet.
   struct Stretched {
     std::unique_ptr<const Skin> skin; ///< at the caps
     CavityResult result;
+  };
+
+  struct Pressing {
+    double farthest; ///< walls, in the mean square
+    bool isLeast;    ///< see `DisplacementTask`
   };
 
   struct Inspected {
@@ -115,11 +140,13 @@ private:
   Capped opened() const;
   std::vector<Stretched> stretched(Capped capped) const;
   std::optional<Inspected> inspected(const Capped& rough) const;
-  std::optional<CavityResult> closed(const Stretched& caps, double farthest) const;
+  std::optional<Inspected> withBridgesClosed(const CavityResult& than);
+  std::optional<CavityResult> closed(const Stretched& caps, const Pressing& pressing) const;
   void dropSpecks(double leastVolume, Capped& capped) const;
   CavityResult resultOf(const Capped& capped) const;
   bool keepsConstraints(const CavityResult& result) const;
-  bool press(const Skin& skin, double farthest, const Marks& atWall, CavityResult& result) const;
+  bool press(const Skin& skin, const Pressing& pressing, const Marks& atWall,
+             CavityResult& result) const;
   bool keepsVolume(const CavityResult& result) const;
   bool isWorthIt(const CavityResult& result) const;
   bool giveUp(const CavityResult& result, const std::vector<int>& end);
@@ -138,7 +165,10 @@ private:
   VertexAdjacency neighbours_;
   VertexCorners corners_;
   CavityEnds ends_;
-  Marks isSmooth_; ///< by the end
+  /// By the end: whether it is a fan between parts that hang together nowhere else there, and how
+  /// many kinds of smooth ends were given up.
+  Marks isBridge_;
+  std::vector<int> givenUp_;
 };
 
 Capping::Capping(const CavityTask& task, const CavityResult& found)
@@ -151,16 +181,81 @@ Capping::Capping(const CavityTask& task, const CavityResult& found)
       outerMass_(outerMoments(task, found)),
       mostViolation_(mostViolation(task, hollowBody(task, found))),
       neighbours_(vertexAdjacency(n_, faces_)), corners_(vertexCorners(n_, faces_)),
-      ends_(cavityEnds(task, found, neighbours_)), isSmooth_(at(ends_.count), 1) {}
+      ends_(cavityEnds(task, found, neighbours_)), isBridge_(bridges()),
+      givenUp_(at(ends_.count), 0) {}
+
+/// A bridge stays one if it can; everything else is closed if it can.
+End Capping::kindOf(int end) const {
+  const int givenUp = givenUp_[at(end)];
+  if (givenUp > 1) return End::AsFound;
+  return (givenUp == 1) == (isBridge_[at(end)] != 0) ? End::Cap : End::Faired;
+}
+
+bool Capping::isAt(End kind, int vertex) const {
+  const int end = ends_.end[at(vertex)];
+  return end >= 0 && kindOf(end) == kind;
+}
+
+/// Ends without which the cavity would fall into more parts.
+Marks Capping::bridges() const {
+  Marks solid = found_.cavity.solid;
+  for (std::size_t v = 0; v < solid.size(); ++v) {
+    if (ends_.turned[v] != 0) solid[v] = 1;
+  }
+  const CavitySurface surface = cavitySurface(found_.inner, faces_, corners_, std::move(solid));
+  const std::vector<int> whole = componentNumbers(n_, found_.cavity.faces);
+  const std::vector<int> parts = componentNumbers(n_, surface.faces);
+  Marks result(at(ends_.count), 0);
+  std::vector<int> first(result.size(), -1); // vertex at the end
+  for (Eigen::Index f = surface.firstCapFace; f < surface.faces.rows(); ++f) {
+    const int v = surface.faces(f, 0);
+    const int end = ends_.end[at(v)];
+    if (end < 0) continue;
+    int& other = first[at(end)];
+    if (other < 0) other = v;
+    if (whole[at(v)] == whole[at(other)] && parts[at(v)] != parts[at(other)]) result[at(end)] = 1;
+  }
+  return result;
+}
+
+/// With caps where fans are between parts of the cavity. Empty: that is not good, or serves the
+/// goal no better.
+std::optional<Capping::Inspected> Capping::withBridgesClosed(const CavityResult& than) {
+  const Marks bridges = std::exchange(isBridge_, Marks(isBridge_.size(), 0));
+  std::optional<Inspected> tried;
+  if (bridges != isBridge_) tried = inspected(opened());
+  isBridge_ = bridges;
+  if (tried && (!tried->isGood || !servesBetter(task_, tried->result, than))) tried.reset();
+  return tried;
+}
+
+/// All bridges that nothing else was tried for or, where there are none, all ends. False where
+/// there are no such ends, either.
+bool Capping::tryOtherwise() {
+  for (const bool isOfBridges : {true, false}) {
+    bool isChanged = false;
+    for (std::size_t end = 0; end < givenUp_.size(); ++end) {
+      if (givenUp_[end] > 0 || (isOfBridges && isBridge_[end] == 0)) continue;
+      givenUp_[end] = 1;
+      isChanged = true;
+    }
+    if (isChanged) return true;
+  }
+  return false;
+}
 
 CavityResult Capping::run() {
-  constexpr int kAttempts = 6;
+  constexpr int kAttempts = 8;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    if (std::find(isSmooth_.begin(), isSmooth_.end(), 1) == isSmooth_.end()) break;
+    if (roughEnds() == ends_.count) break;
     const Capped rough = opened();
     std::optional<Inspected> tried = inspected(rough);
-    if (!tried) break;
+    if (!tried) {
+      if (!tryOtherwise()) break;
+      continue;
+    }
     if (tried->isGood) {
+      if (auto other = withBridgesClosed(tried->result)) tried = std::move(other);
       tried->result.roughEnds = roughEnds();
       return std::move(tried->result);
     }
@@ -175,42 +270,58 @@ CavityResult Capping::run() {
   return rough;
 }
 
-/// With caps, the first that are clean and worth it, or else the first of all; empty: there are
-/// none.
+/// With smooth ends, of caps the first that are clean and worth it, of fans the best such, or else
+/// the first of all; empty: there are none.
 std::optional<Capping::Inspected> Capping::inspected(const Capped& rough) const {
-  constexpr double kFarthest[] = {4.0, 2.0}; // walls
+  constexpr Pressing kOfCaps[] = {{4.0, false}, {2.0, false}};
+  constexpr Pressing kOfFans[] = {{0.125, false}, {2.0, true}}; // these keep their shape
   // Of many ends some always are faulty, and to try all again takes long.
   constexpr int kFew = 8;
+  if (!isClosed(rough.mesh)) return {}; // ends too close to each other
   std::optional<Inspected> first;
+  std::optional<Inspected> best;
   const std::vector<Stretched> all = stretched(rough);
-  for (const double farthest : kFarthest) {
+  const auto isAny = [&](End kind) {
+    return std::any_of(rough.end.begin(), rough.end.end(),
+                       [&](int end) { return end >= 0 && kindOf(end) == kind; });
+  };
+  const bool isAnyFaired = isAny(End::Faired);
+  std::vector<Pressing> pressings;
+  if (isAnyFaired) pressings.assign(std::begin(kOfFans), std::end(kOfFans));
+  if (isAny(End::Cap)) pressings.insert(pressings.end(), std::begin(kOfCaps), std::end(kOfCaps));
+  for (const Pressing& pressing : pressings) {
     for (const Stretched& caps : all) {
-      std::optional<CavityResult> result = closed(caps, farthest * task_.wall);
+      std::optional<CavityResult> result = closed(caps, pressing);
       if (!result) continue;
       result->inspection = inspect(result->inner, result->cavity.faces, outer(), task_.wall, false,
                                    LookFirst::ForAll, found_.clearance.get(), task_.stored);
       const bool isGood = result->inspection.isClean() && isWorthIt(*result);
       Inspected tried{*std::move(result), isGood};
-      if (isGood || ends_.count > kFew) return tried;
-      if (!first) first = std::move(tried);
+      if ((isGood && !isAnyFaired) || ends_.count > kFew) return tried;
+      if (isGood && (!best || servesBetter(task_, tried.result, best->result))) {
+        best = std::move(tried);
+      } else if (!first) {
+        first = std::move(tried);
+      }
     }
   }
+  if (best) return best;
   return first;
 }
 
 int Capping::roughEnds() const {
-  return static_cast<int>(std::count(isSmooth_.begin(), isSmooth_.end(), 0));
+  constexpr int kKinds = 2;
+  return static_cast<int>(std::count(givenUp_.begin(), givenUp_.end(), kKinds));
 }
 
-/// Without fans at smooth ends, the holes closed by triangles that are not smooth yet.
+/// With other triangles at ends that are to be smooth, which they are not yet.
 Capped Capping::opened() const {
-  const auto isRough = [&](int v) {
-    const int end = ends_.end[at(v)];
-    return end >= 0 && isSmooth_[at(end)] == 0;
-  };
+  const auto isRough = [&](int v) { return isAt(End::AsFound, v); };
+  const auto isFaired = [&](int v) { return isAt(End::Faired, v); };
   Marks solid = found_.cavity.solid;
-  for (std::size_t v = 0; v < solid.size(); ++v) {
-    if (ends_.turned[v] != 0 && !isRough(static_cast<int>(v))) solid[v] = 1;
+  for (int v = 0; v < static_cast<int>(n_); ++v) {
+    const Marks& goes = isFaired(v) ? ends_.fan : ends_.turned;
+    if (goes[at(v)] != 0 && !isRough(v)) solid[at(v)] = 1;
   }
   const CavitySurface surface = cavitySurface(found_.inner, faces_, corners_, std::move(solid));
   const Faces kept = surface.faces.topRows(surface.firstCapFace);
@@ -232,17 +343,25 @@ Capped Capping::opened() const {
     return static_cast<int>(n_) + static_cast<int>(added.size()) - 1;
   };
   const Faces caps = facesWhere(surface.faces, [&](Eigen::Index f) {
-    return f >= surface.firstCapFace && !isRough(surface.faces(f, 0));
+    const int v = surface.faces(f, 0);
+    return f >= surface.firstCapFace && !isRough(v) && !isFaired(v);
   });
-  for (const Faces& cap : connectedComponents(n_, caps)) {
-    TriangleMesh divided = dividedCap(found_.inner, kept, keptCorners, cap);
-    const int end = ends_.end[at(cap(0, 0))];
+  const Faces fans = facesWhere(before, [&](Eigen::Index f) {
+    const auto corners = before.row(f);
+    const bool goes = f >= found_.cavity.firstCapFace || hasAny(before, f, surface.solid);
+    return goes && std::any_of(corners.begin(), corners.end(), isFaired);
+  });
+  for (const Faces& part : connectedComponents(n_, joined({caps, fans}))) {
+    const int end = ends_.end[at(part(0, 0))];
+    const TriangleMesh other =
+        withOtherTriangles(found_.inner, kept, keptCorners, part, end < 0 ? End::Cap : kindOf(end));
     const int first = static_cast<int>(n_) + static_cast<int>(added.size());
-    for (const auto& position : divided.vertices.rowwise()) add(position, end);
-    parts.emplace_back(divided.faces.unaryExpr(
+    for (const auto& position : other.vertices.rowwise()) add(position, end);
+    parts.emplace_back(other.faces.unaryExpr(
         [&](int v) { return v < n_ ? v : first + v - static_cast<int>(n_); }));
-    for (const int v : cap.reshaped()) {
-      if (placeOf[at(v)] < n_) placeOf[at(v)] = add(found_.inner.row(v), end);
+    for (const int v : part.reshaped()) {
+      const bool isOnBorder = keptCorners.at(v).size() > 0;
+      if (isOnBorder && placeOf[at(v)] < n_) placeOf[at(v)] = add(found_.inner.row(v), end);
     }
   }
   result.mesh.faces = joined(parts).unaryExpr([&](int v) { return v < n_ ? placeOf[at(v)] : v; });
@@ -254,16 +373,21 @@ Capped Capping::opened() const {
   return result;
 }
 
-/// Smooth caps of several stiffnesses, those first that serve the goal best.
+/// Smooth ends of several stiffnesses, those first that serve the goal best.
 std::vector<Capping::Stretched> Capping::stretched(Capped capped) const {
   constexpr double kStiffness[] = {1.0, 2.0, 4.0}; // walls
   dropSpecks(0.0, capped);
   Marks isFree(at(capped.mesh.vertices.rows()), 1);
   std::fill_n(isFree.begin(), n_, 0);
+  Vector springs = Vector::Zero(capped.mesh.vertices.rows());
+  for (Eigen::Index v = n_; v < springs.size(); ++v) {
+    const int end = capped.end[at(v)];
+    if (end >= 0 && kindOf(end) == End::Faired) springs[v] = 1.0 / (task_.wall * task_.wall);
+  }
   std::vector<Stretched> all;
   for (const double stiffness : kStiffness) {
     auto skin = std::make_unique<const Skin>(capped.mesh.vertices, capped.mesh.faces, isFree,
-                                             stiffness * task_.wall);
+                                             stiffness * task_.wall, springs);
     if (!skin->isSolvable()) continue;
     Capped smooth = capped;
     smooth.mesh.vertices = skin->atRest();
@@ -279,8 +403,8 @@ std::vector<Capping::Stretched> Capping::stretched(Capped capped) const {
 }
 
 /// The caps as they keep the wall and the constraints hold, not inspected yet; empty where they do
-/// not. `farthest`: that they are pressed, in the mean square.
-std::optional<CavityResult> Capping::closed(const Stretched& caps, double farthest) const {
+/// not.
+std::optional<CavityResult> Capping::closed(const Stretched& caps, const Pressing& pressing) const {
   constexpr int kRounds = 6;
   CavityResult result = caps.result;
   ClearanceQuery clearance(outer());
@@ -288,7 +412,7 @@ std::optional<CavityResult> Capping::closed(const Stretched& caps, double farthe
   std::fill_n(rests.begin(), n_, 1);
   Marks atWall(at(result.inner.rows()), 0);
   for (int round = 0; round < kRounds; ++round) {
-    if (!keepsConstraints(result) && !press(*caps.skin, farthest, atWall, result))
+    if (!keepsConstraints(result) && !press(*caps.skin, pressing, atWall, result))
       return std::nullopt;
     Points moved = result.inner;
     const bool isThin =
@@ -338,7 +462,7 @@ bool Capping::keepsConstraints(const CavityResult& result) const {
 
 /// Presses the caps in and out until the constraints hold; false where they do not. `atWall`:
 /// vertices that must not move.
-bool Capping::press(const Skin& skin, double farthest, const Marks& atWall,
+bool Capping::press(const Skin& skin, const Pressing& pressing, const Marks& atWall,
                     CavityResult& result) const {
   const Eigen::Index terms = task_.goal.usesInertia() ? 10 : 4;
   RowMatrix pressures = RowMatrix::Zero(result.inner.rows(), terms);
@@ -348,11 +472,17 @@ bool Capping::press(const Skin& skin, double farthest, const Marks& atWall,
     if (v < n_) continue;
     pressures.row(v) = monomials(result.inner.row(v).transpose()).head(terms).transpose();
   }
-  const Displaced done =
-      displace({movedGoal_ ? *movedGoal_ : task_.goal, task_.weights, task_.model.fillings,
-                outerMass_, task_.model.solidMoments[0], result.cavity.faces, directions, farthest,
-                skin.deflections(pressures)},
-               result.inner);
+  DisplacementTask displacement{movedGoal_ ? *movedGoal_ : task_.goal,
+                                task_.weights,
+                                task_.model.fillings,
+                                outerMass_,
+                                task_.model.solidMoments[0],
+                                result.cavity.faces,
+                                directions,
+                                pressing.farthest * task_.wall,
+                                skin.deflections(pressures)};
+  displacement.isLeast = pressing.isLeast;
+  const Displaced done = displace(displacement, result.inner);
   result.effort.evaluations += done.evaluations;
   return done.evaluations > 0 && done.violation <= mostViolation_;
 }
@@ -411,15 +541,15 @@ void Capping::giveUpCostliest(const CavityResult& result, const std::vector<int>
   const auto first = static_cast<int>(result.inner.rows());
   std::vector<std::pair<double, int>> costs;
   for (int number = 0; number < ends_.count; ++number) {
-    if (isSmooth_[at(number)] == 0) continue;
-    const auto isAt = [&](const Faces& faces, Eigen::Index f) {
+    if (kindOf(number) == End::AsFound) continue;
+    const auto isOfEnd = [&](const Faces& faces, Eigen::Index f) {
       return std::any_of(faces.row(f).begin(), faces.row(f).end(),
                          [&](int v) { return end[at(v)] == number; });
     };
     // What lies between the two surfaces there.
     const Faces now = facesWhere(result.cavity.faces,
-                                 [&](Eigen::Index f) { return isAt(result.cavity.faces, f); });
-    Faces was = facesWhere(before, [&](Eigen::Index f) { return isAt(before, f); });
+                                 [&](Eigen::Index f) { return isOfEnd(result.cavity.faces, f); });
+    Faces was = facesWhere(before, [&](Eigen::Index f) { return isOfEnd(before, f); });
     was.col(1).swap(was.col(2));
     was.array() += first;
     const Moments change = moments(both, joined({now, was}));
@@ -431,19 +561,17 @@ void Capping::giveUpCostliest(const CavityResult& result, const std::vector<int>
   for (std::size_t i = 0; i < costs.size(); ++i) {
     left -= costs[i].first;
     const bool isCostliest = i + 1 == costs.size();
-    if (isCostliest || left < 0.0) isSmooth_[at(costs[i].second)] = 0;
+    if (isCostliest || left < 0.0) ++givenUp_[at(costs[i].second)];
   }
 }
 
 /// Ends at which something is wrong stay as they were. False where it is wrong elsewhere.
 bool Capping::giveUp(const CavityResult& result, const std::vector<int>& end) {
   const VertexAdjacency neighbours = vertexAdjacency(result.inner.rows(), result.cavity.faces);
-  bool isChanged = false;
+  Marks isWrong(at(ends_.count), 0);
   const auto giveUpAt = [&](int v) {
     const int number = end[at(v)];
-    if (number < 0 || isSmooth_[at(number)] == 0) return;
-    isSmooth_[at(number)] = 0;
-    isChanged = true;
+    if (number >= 0 && kindOf(number) != End::AsFound) isWrong[at(number)] = 1;
   };
   for (const std::vector<int>* wrong : {&result.inspection.crossing, &result.inspection.thin}) {
     for (const int v : *wrong) {
@@ -451,7 +579,9 @@ bool Capping::giveUp(const CavityResult& result, const std::vector<int>& end) {
       for (const int w : neighbours[at(v)]) giveUpAt(w);
     }
   }
-  return isChanged;
+  for (std::size_t number = 0; number < isWrong.size(); ++number)
+    givenUp_[number] += isWrong[number];
+  return std::find(isWrong.begin(), isWrong.end(), 1) != isWrong.end();
 }
 
 } // namespace

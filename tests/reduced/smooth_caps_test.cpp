@@ -53,11 +53,17 @@ INSTANTIATE_TEST_SUITE_P(Samples, SmoothCaps,
                                            End{"box_on_corner", GoalKind::Stand, 0.001},
                                            End{"bath_duck", GoalKind::Float, 0.003},
                                            End{"bath_duck", GoalKind::Spin, 0.006},
-                                           End{"uneven_yo_yo", GoalKind::YoYo, 0.02},
+                                           // Necks between two parts of a cavity, in balance.
+                                           End{"uneven_yo_yo", GoalKind::YoYo, 0.01},
+                                           End{"uneven_yo_yo", GoalKind::Spin, 0.01},
+                                           // Few and large triangles: a rim is a good part of them.
+                                           End{"tilted_ellipsoid_top", GoalKind::Spin, 0.045},
+                                           End{"hanging_fish", GoalKind::Spin, 0.006},
                                            End{"hanging_fish", GoalKind::Hang, 0.01}));
 
-// The cavity of this body has ends that keep it in balance and ends that cost nothing.
-TEST(SmoothCapsOfAPolycube, CloseTheEndsThatCostLittleWhereOthersStayRough) {
+// The cavity of this body has ends that cost nothing and ends that caps would cost it much at,
+// where the fans are faired.
+TEST(SmoothCapsOfAPolycube, CloseTheEndsThatCostLittleAndFairOthers) {
   const TriangleMesh body =
       polycube({{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 2, 0}, {0, 3, 0}, {1, 0, 0}, {1, 1, 0}}, 5);
   Options options;
@@ -67,23 +73,24 @@ TEST(SmoothCapsOfAPolycube, CloseTheEndsThatCostLittleWhereOthersStayRough) {
   options.innerLowerBound = wall;
   const Result result = optimizeMassProperties(body, options);
   ASSERT_GT(result.inner.faces.rows(), 0);
-  // The body's own edges turn by 90°; with all ends rough it is 0.109 of them.
-  EXPECT_LT(shareOfSharpEdges(result.inner, 60.0), 0.106);
-  EXPECT_LT(std::get<double>(result.report.at("gap_to_limit")), 0.025);
+  // The body's own edges turn by 90°; with all ends rough it is 0.109 of them, with caps alone
+  // 0.105.
+  EXPECT_LT(shareOfSharpEdges(result.inner, 60.0), 0.095);
+  EXPECT_LT(std::get<double>(result.report.at("gap_to_limit")), 0.027);
   EXPECT_TRUE(isClosedAndOriented(result.inner));
   EXPECT_EQ(intersectingPairs(result.inner), 0U);
   EXPECT_GE(separation(result.inner, body).least, wall);
 }
 
-// Caps that balance this body cross the rest of its cavity.
+// Smooth ends of this body's cavity would unbalance it.
 TEST(EndsThatStayPleated, AreNotDeliveredWhereTheBestPossibleCavityServesMore) {
   Options options;
   options.goal = GoalKind::Spin;
-  const Result result = optimizeMassProperties(sampleMesh("uneven_yo_yo"), options);
+  const Result result =
+      optimizeMassProperties(polycube({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, 5), options);
   EXPECT_EQ(std::get<std::string>(result.report.at("cavity_shape")),
             "best possible: ends of the offset surface stay pleated");
   EXPECT_LT(std::get<double>(result.report.at("gap_to_limit")), 0.005);
-  EXPECT_LT(shareOfSharpEdges(result.inner, 60.0), 0.02);
 }
 
 } // namespace
