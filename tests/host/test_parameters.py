@@ -65,7 +65,8 @@ class ParametersTest(HostTest):
             report, (vertices, faces) = self.top(cavity_shape=shape)
             self.assertTrue(report["cavity_shape"].startswith(words), report["cavity_shape"])
             self.assertTrue(report["solved"], report["message"])
-            self.assertEqual(len(vertices) == len(self.outer[0]), shape == OFFSET_SURFACE)
+            # The outer surface's triangles moved inwards, but for its ends, or those of fine cubes.
+            self.assertEqual(len(vertices) < 1.5 * len(self.outer[0]), shape == OFFSET_SURFACE)
             wall = measure.surface_distance(self.outer, (vertices, faces))
             self.assertGreaterEqual(wall, report["min_wall"] - 1e-6)
             gaps[shape] = report["gap_to_limit"]
@@ -177,11 +178,13 @@ class ParametersTest(HostTest):
         self.assertLess(ratio(heavy), ratio(without))
 
     def test_opt_weight_4_smooths_the_offsets(self):
-        _, (free, _) = self.top(cavity_shape=OFFSET_SURFACE, opt_weight_4=0)
-        _, (smooth, _) = self.top(cavity_shape=OFFSET_SURFACE, opt_weight_4=0.03)
+        _, free = self.top(cavity_shape=OFFSET_SURFACE, opt_weight_4=0)
+        _, smooth = self.top(cavity_shape=OFFSET_SURFACE, opt_weight_4=0.03)
 
         def energy(inner):
-            return cotangent_energy(*self.outer, np.linalg.norm(inner - self.outer[0], axis=1))
+            # Of how deep the cavity is, for where it ends it has vertices of its own.
+            away = np.linalg.norm(inner[0][:, None] - self.outer[0][None], axis=2).min(1)
+            return cotangent_energy(*inner, away)
 
         self.assertLess(energy(smooth), 0.9 * energy(free))
 
