@@ -348,7 +348,7 @@ constexpr double kAll = std::numeric_limits<double>::infinity();
 bool isCut(const CavityTask& task) {
   const Vec3 low = task.surface.lower();
   const Vec3 high = task.surface.upper();
-  const Region region{task.surface, task.wall, nullptr, task.bound->worth};
+  const Region region{task.surface, task.wall, {}, task.bound->worth};
   return sideOfCut(region, 0.5 * (low + high), 0.5 * (high - low).norm()) != Side::Positive;
 }
 
@@ -382,8 +382,8 @@ double edgeThatWillDo(const CavityTask& task, const OpenedSet& deliverable) {
 
 /// In cubes as fine as it takes to lose little.
 CavityResult inFineCubes(const CavityTask& task, OpenedSet deliverable) {
-  constexpr std::array<double, 2> kEnough{0.018, 0.025};        // of what is possible is left
-  constexpr std::array<double, 2> kRoughEnough{0.0135, 0.0275}; // before all is polished
+  constexpr std::array<double, 2> kEnough{0.018, 0.025};       // of what is possible is left
+  constexpr std::array<double, 2> kRoughEnough{0.018, 0.0275}; // before all is polished
   constexpr double kWanted = 0.01;
   const double more = leeway(task.surface);
   deliverable.edge = edgeThatWillDo(task, deliverable);
@@ -456,28 +456,9 @@ Deliverable deliverableSet(const TriangleTree& surface, double wall, const Regio
   const double width = 2.0 * cells.col(0).sum() / area;
   const double edge =
       std::clamp(width / kAcross, edgeOfCubes(area, kMost), edgeOfCubes(area, kFewest));
-  const auto deliverable = [&](OpenedSet set) {
-    AdmissibleCells within = cellsWithin(set, behindWall);
-    return Deliverable{std::move(set), std::move(within)};
-  };
-  std::optional<Deliverable> found =
-      deliverable(openedSet(surface, wall, std::max(edge, kLeastEdge)));
-  // Where rooms are hardly wider than the ball, its middle goes along thin sheets, which large
-  // cubes pass over.
-  constexpr double kLittle = 0.02;
-  constexpr Eigen::Index kMostFaces = 100000;
-  const double all = cells.col(0).sum();
-  while (volumeInDoubt(found->set, behindWall) > kLittle * all) {
-    const OpenedSet& set = found->set;
-    const OpeningBall finer{set.ball.width, 0.5 * set.ball.edge};
-    const bool isFine = set.deep && set.deep->mesh->faces.rows() > kMostFaces;
-    if (isFine || finer.edge < kLeastEdge) break;
-    Deliverable more = deliverable(openedSet(surface, wall, finer, set.edge));
-    const double gain = more.cells.col(0).sum() - found->cells.col(0).sum();
-    if (gain < kLittle * more.cells.col(0).sum()) break;
-    found.emplace(std::move(more));
-  }
-  return *std::move(found);
+  OpenedSet set = openedSet(surface, wall, std::max(edge, kLeastEdge));
+  AdmissibleCells within = cellsWithin(set, behindWall);
+  return {std::move(set), std::move(within)};
 }
 
 CavityResult bestPossibleCavity(const CavityTask& task, const OpenedSet& deliverable, Cubes cubes) {

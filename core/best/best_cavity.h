@@ -15,8 +15,7 @@ struct Deliverable {
 };
 
 /// What a cavity may take behind a wall, as finely as it is delivered: the finer, the narrower its
-/// rooms, and so is what tells where they are as wide as a wall, as long as that finds more of
-/// them. `behindWall`: all that lies there, `cells`: what these are.
+/// rooms. `behindWall`: all that lies there, `cells`: what these are.
 Deliverable deliverableSet(const TriangleTree& surface, double wall, const RegionParts& behindWall,
                            const AdmissibleCells& cells);
 

@@ -40,7 +40,7 @@ Points directionsOf(const Region& region, Moving moving, const std::vector<char>
 Polished polish(const CavityTask& task, const LayeredQuadric& quadric, Moving moving, double edge,
                 const std::vector<char>& held, const Contour& contour, Points& vertices) {
   constexpr double kFarthest = 0.3; // edges, root mean square of the displacements
-  const Region region{task.surface, task.wall, nullptr, quadric, edge};
+  const Region region{task.surface, task.wall, {}, quadric, edge};
   const Points directions = directionsOf(region, moving, held, contour.on, vertices);
   const Moments outer = task.model.solidMoments + task.model.attached;
   DisplacementTask displacement{

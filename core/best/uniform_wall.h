@@ -16,7 +16,7 @@ struct VolumeTask {
   double volume;               ///< of the cavity, > 0
   double tolerance;            ///< of the volume, that of what is delivered
   double leastWall;            ///< length
-  OpeningBall ball;            ///< that opens the level sets
+  double ball;                 ///< width of the one that opens the level sets
   double edge;                 ///< of the cubes that the cavity is made with at most, length
   /// Rounds positions to those that can be delivered.
   std::function<Points(const Points&)> deliverable;

@@ -158,11 +158,10 @@ std::optional<CavityContour> cavityContour(const OpenedSet& set,
                                            const std::function<bool(const Contour&)>& isWorthIt,
                                            const std::vector<Vec3>& solid) {
   ClearanceQuery fresh(set.surface);
-  if (!set.deep) return CavityContour{{}, set.edge, fresh};
-  const double leastVolume = std::pow(set.ball.width, 3);
+  const double leastVolume = std::pow(set.ball, 3);
   // Vertices on the border shall not count as too near for their last digits.
   constexpr double kMore = 3e-4;
-  const Region region{set.surface,   (1.0 + kMore) * set.wall, &*set.deep, quadric, set.edge,
+  const Region region{set.surface,   (1.0 + kMore) * set.wall, set.opening, quadric, set.edge,
                       set.fill.get()};
   std::optional<BorderLattice> lattice;
   // What the cubes are too large for becomes solid, too.

@@ -73,7 +73,7 @@ Side sideOfCut(const Region& region, const Vec3& x, double radius) {
 
 InsetProbe::InsetProbe(const Region& region, double slack)
     : region_(region), slack_(slack), inside_(region.surface) {
-  if (region.deep != nullptr) insideDeep_.emplace(region.deep->border);
+  if (region.opening) opening_.emplace(region.surface, *region.opening, slack);
 }
 
 Sample InsetProbe::at(const Vec3& x, double horizon, bool isInside) {
@@ -87,9 +87,8 @@ Sample InsetProbe::at(const Vec3& x, double horizon, bool isInside) {
 
 Sample InsetProbe::behindWalls(const Vec3& x, double horizon, bool isInside) {
   constexpr double kAnywhere = std::numeric_limits<double>::infinity();
-  const DeepPart* deep = region_.deep;
   const TriangleTree& surface = region_.surface;
-  const double exact = (deep != nullptr ? deep->depth : region_.wall) + horizon;
+  const double exact = (opening_ ? region_.opening->fits : region_.wall) + horizon;
   const bool isNearLast = (x - last_.centre).squaredNorm() < last_.radius * last_.radius;
   const bool isSideKnown = isInside || isNearLast;
   // Only the very nearest face tells the side.
@@ -112,30 +111,11 @@ Sample InsetProbe::behindWalls(const Vec3& x, double horizon, bool isInside) {
   const double depth = sign * distance;
   Sample inset{depth - region_.wall, sign * (x - clear.point) / std::max(distance, kTiny)};
   isOfSurface_ = true;
-  if (deep == nullptr || depth >= deep->depth || inset.value <= -horizon) return inset;
-  // Not the nearest of the deep part, but near enough as a rule.
-  const int known = nearestDeep_.face;
-  if (known >= 0 &&
-      deep->reach - std::sqrt(deep->border.nearestOn(known, x).squaredDistance) >= inset.value) {
-    return inset;
-  }
-  return ofOpening(x, horizon, inset);
-}
-
-/// Or of the surface's inset, where that is less.
-Sample InsetProbe::ofOpening(const Vec3& x, double horizon, const Sample& inset) {
-  const DeepPart& deep = *region_.deep;
-  const double farthest = deep.reach + horizon;
-  nearestDeep_ = deep.border.nearest(x, farthest * farthest, nearestDeep_.face);
-  if (nearestDeep_.face < 0) {
-    if (insideDeep_->contains(x)) return inset;
-    isOfSurface_ = false;
-    return {std::min(inset.value, -horizon), inset.slope};
-  }
-  const double away = std::sqrt(nearestDeep_.squaredDistance);
-  if (deep.reach - away >= inset.value || insideDeep_->contains(x, nearestDeep_)) return inset;
+  if (!opening_ || inset.value <= -horizon) return inset;
+  const std::optional<Sample> opened = opening_->at(x, {depth, inset.slope}, inset.value, horizon);
+  if (opened && opened->value >= inset.value) return inset;
   isOfSurface_ = false;
-  return {deep.reach - away, (nearestDeep_.point - x) / std::max(away, kTiny)};
+  return opened ? *opened : Sample{std::min(inset.value, -horizon), inset.slope};
 }
 
 } // namespace massprops

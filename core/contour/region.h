@@ -1,30 +1,22 @@
 // The points that may be hollow, as the positive side of a function.
 #pragma once
 
+#include "core/contour/opening.h"
 #include "core/optimum/layered_quadric.h"
 #include "core/query/grid_function.h"
 #include "core/query/point_in_mesh.h"
 #include "core/query/triangle_tree.h"
 
-#include <memory>
 #include <optional>
 
 namespace massprops {
 
-/// The widest places of a region: about what lies at least a depth behind the outer surface.
-struct DeepPart {
-  std::unique_ptr<const TriangleMesh> mesh; ///< closed, outward
-  TriangleTree border;                      ///< of the mesh
-  double depth;                             ///< behind which everything certainly belongs to it
-  double reach; ///< no point of the region is farther from the deep part
-};
-
-/// Points at least a wall behind the surface, not farther from the deep part than its reach, on the
-/// positive side of the quadric, where nothing is filled. Working frame.
+/// Points at least a wall behind the surface, next to where a ball fits, on the positive side of
+/// the quadric, where nothing is filled. Working frame.
 struct Region {
   const TriangleTree& surface; ///< closed, outward
   double wall;
-  const DeepPart* deep = nullptr;             ///< null: at any distance
+  std::optional<Opening> opening = {};        ///< empty: they need not be
   std::optional<LayeredQuadric> quadric = {}; ///< empty: on both sides
   /// How far above and below a height between layers one quadric passes into the other, so that a
   /// step there is no jump.
@@ -61,13 +53,12 @@ public:
 private:
   /// Without what carries ceilings.
   Sample behindWalls(const Vec3& x, double horizon, bool isInside);
-  Sample ofOpening(const Vec3& x, double horizon, const Sample& inset);
 
   const Region& region_;
   double slack_;
   PointInMesh inside_;
-  std::optional<PointInMesh> insideDeep_;
-  TriangleTree::Hit nearest_, nearestDeep_;
+  std::optional<OpeningProbe> opening_;
+  TriangleTree::Hit nearest_;
   bool isOfSurface_ = true;
   /// Around the last point; the surface does not come into it, so that all of it is on one side.
   struct Ball {

@@ -427,7 +427,7 @@ SupportingFill::SupportingFill(const OpenedSet& set, const OverhangWishes& wishe
   halfThickness_ = static_cast<float>(wishes.halfThickness * std::max(set.edge / grid_.edge, 1.0));
   inset_.assign(at(grid_.nodes()), -kBand);
   fill_.assign(at(grid_.nodes()), kBand);
-  const Region region{set_.surface, set_.wall, &*set_.deep};
+  const Region region{set_.surface, set_.wall, set_.opening};
   sample(
       grid_,
       [&] {
@@ -460,7 +460,7 @@ void SupportingFill::allowPillars(double spacing) {
 }
 
 double SupportingFill::add(const LayeredQuadric& quadric) {
-  const Region region{set_.surface, set_.wall, &*set_.deep, quadric, set_.edge};
+  const Region region{set_.surface, set_.wall, set_.opening, quadric, set_.edge};
   const Eigen::Index layer = Eigen::Index(grid_.counts.x()) * grid_.counts.y();
   std::vector<char> isHollow(at(grid_.nodes()));
   std::vector<float> fresh(at(grid_.nodes()), kBand);

@@ -38,13 +38,13 @@ Volumes volumesWith(double room) {
   const RegionParts behindWall = resolvedParts(tree, wall);
   const AdmissibleCells cells = cellsOf(behindWall);
   const Deliverable found = deliverableSet(tree, wall, behindWall, cells);
-  EXPECT_EQ(found.set.ball.width, wall);
+  EXPECT_EQ(found.set.ball, wall);
   return {cells.col(0).sum(), found.cells.col(0).sum(),
           kPi * std::pow(0.4 - wall, 2) * (1.0 - 2.0 * wall)};
 }
 
 TEST(DeliverableSet, HasRoomsHardlyWiderThanTheWall) {
-  for (const double room : {1.02, 1.1, 1.5}) {
+  for (const double room : {1.0, 1.002, 1.02, 1.1, 1.5}) {
     const Volumes volumes = volumesWith(room);
     ASSERT_GT(volumes.behindWall, 1.3 * volumes.cylinder);
     // The ball does not reach all of the disc's rim.

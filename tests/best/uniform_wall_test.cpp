@@ -17,9 +17,7 @@ constexpr double kTolerance = 1e-9;
 
 std::optional<TriangleMesh> cavityOf(const TriangleTree& tree, double volume) {
   return cavityOfVolume(
-      {tree, volume, kTolerance, 0.02, {0.02, 0.14}, 0.1, [](const Points& points) {
-         return points;
-       }});
+      {tree, volume, kTolerance, 0.02, 0.02, 0.1, [](const Points& points) { return points; }});
 }
 
 TEST(UniformWall, IsTheDifferenceOfRadiiOfABall) {

@@ -54,7 +54,7 @@ TEST(DualContour, OfABoxCutByAPlaneHasACreaseWhereTheyMeet) {
   const TriangleTree tree = treeOf(outer);
   const double wall = 0.2;
   const Vec3 normal = Vec3(1.0, 1.0, 1.0).normalized();
-  const Region region{tree, wall, nullptr, halfSpace(normal, 0.1)};
+  const Region region{tree, wall, {}, halfSpace(normal, 0.1)};
   const double edge = 0.073;
   Contour inner = dualContour(borderLattice(region, edge));
   expectClosedManifold(inner.mesh);
@@ -91,7 +91,7 @@ TEST(DualContour, OfABallCutByAnEllipsoidHasTheVolumeBetween) {
   quadric[0] = -1.0;
   quadric.segment<3>(4) = half.cwiseAbs2().cwiseInverse();
   const Contour inner =
-      dualContour(borderLattice({tree, 0.1, nullptr, LayeredQuadric::ofOneLayer(quadric)}, 0.04));
+      dualContour(borderLattice({tree, 0.1, {}, LayeredQuadric::ofOneLayer(quadric)}, 0.04));
   expectClosedManifold(inner.mesh);
   const double kPi4_3 = 4.0 / 3.0 * kPi;
   EXPECT_NEAR(moments(inner.mesh.vertices, inner.mesh.faces)[0],
@@ -112,8 +112,8 @@ TEST(DualContour, IsFreeOfCrossingsHoweverCoarse) {
     quadric.tail<6>() *= 3.0;
     const double wall = extent.norm() * (0.004 + 0.001 * (i % 10));
     const double edge = wall * (0.5 + 0.1 * (i % 13));
-    const Contour contour = dualContour(
-        borderLattice({tree, wall, nullptr, LayeredQuadric::ofOneLayer(quadric)}, edge));
+    const Contour contour =
+        dualContour(borderLattice({tree, wall, {}, LayeredQuadric::ofOneLayer(quadric)}, edge));
     expectClosedManifold(contour.mesh);
   }
 }
@@ -121,7 +121,7 @@ TEST(DualContour, IsFreeOfCrossingsHoweverCoarse) {
 TEST(DualContour, IsTheSameWithAnyNumberOfThreads) {
   const TriangleMesh outer = blob(16);
   const TriangleTree tree = treeOf(outer);
-  const Region region{tree, 0.1, nullptr, halfSpace(Vec3::UnitZ(), 0.1)};
+  const Region region{tree, 0.1, {}, halfSpace(Vec3::UnitZ(), 0.1)};
   Contour one;
   {
     const ThreadCount threads(1);
@@ -155,7 +155,7 @@ TEST(BorderLattice, TakesOutWhatIsAskedForAndStaysSound) {
 TEST(Projection, PutsVerticesOnWhatTheyLieOn) {
   const TriangleMesh outer = blob(16);
   const TriangleTree tree = treeOf(outer);
-  const Region region{tree, 0.1, nullptr, halfSpace(Vec3(1.0, 0.0, 0.5).normalized(), 0.05)};
+  const Region region{tree, 0.1, {}, halfSpace(Vec3(1.0, 0.0, 0.5).normalized(), 0.05)};
   Contour contour = dualContour(borderLattice(region, 0.05));
   project(region, 0.05, contour);
   InsetProbe probe(region);

@@ -1,0 +1,52 @@
+// Where a ball fits behind the surface, and what is near such places.
+#pragma once
+
+#include "core/query/grid_function.h"
+#include "core/query/point_in_mesh.h"
+#include "core/query/triangle_tree.h"
+
+#include <optional>
+
+namespace massprops {
+
+/// Lengths.
+struct Opening {
+  double fits;  ///< least depth behind the surface at which the ball's middle may be
+  double reach; ///< what is farther than that from every such place is too narrow
+};
+
+/// Looks for the nearest place that the ball's middle may be at, of points one after the other; it
+/// is quick where they are near each other.
+class OpeningProbe {
+public:
+  /// `slack`: the share of the distance from the surface by which this may be found too large.
+  OpeningProbe(const TriangleTree& surface, const Opening& opening, double slack = 0.0);
+
+  /// The opening's reach less the distance from the nearest place. `depth`: behind the surface at
+  /// x. Infinity where that is at least `enough`, or the ball's middle may be at x itself; empty
+  /// where no place is found within the reach and `horizon`.
+  ///
+  /// By cutting planes [Kel60]: where depth bends down, as in a room between walls, that is the
+  /// nearest one; elsewhere it may be passed over for another.
+  std::optional<Sample> at(const Vec3& x, const Sample& depth, double enough, double horizon);
+
+  /// Whether `at` is known to be as much at least.
+  bool isSurely(const Vec3& x, double enough) const {
+    return known_ && opening_.reach - (x - *known_).norm() >= enough;
+  }
+
+  /// Behind the surface, exact where the ball does not fit. `isInside`: x is known to lie inside.
+  Sample depthAt(const Vec3& x, bool isInside);
+
+private:
+  std::optional<Vec3> placeNear(const Vec3& x, const Sample& depth, double farthest);
+
+  const TriangleTree& surface_;
+  Opening opening_;
+  double slack_;
+  PointInMesh inside_;
+  int nearestFace_ = -1;
+  std::optional<Vec3> known_; ///< the last place
+};
+
+} // namespace massprops

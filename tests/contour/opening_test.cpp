@@ -1,0 +1,93 @@
+// Where a ball fits, against closed forms.
+#include "core/contour/cavity_contour.h"
+#include "core/contour/opening.h"
+#include "core/mesh/signed_volume.h"
+#include "shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace massprops::testing {
+namespace {
+
+const Mat3 kAskew = Eigen::AngleAxisd(0.6, Vec3(3, 1, 2).normalized()).toRotationMatrix();
+
+/// The depth inside of a box with its middle at the origin, before it was turned.
+Sample depthInBox(const Vec3& half, const Vec3& x) {
+  int axis = 0;
+  const double depth = (half - x.cwiseAbs()).minCoeff(&axis);
+  return {depth, kAskew * Vec3(Vec3::Unit(axis) * (x[axis] > 0.0 ? -1.0 : 1.0))};
+}
+
+TEST(OpeningProbe, FindsTheNearestPlaceInABox) {
+  const double fits = 0.15;
+  const double reach = 0.09;
+  const double horizon = 0.03;
+  // Roomy, a sheet and a bar as thin as a thousandth of the ball, and a sheet of no thickness.
+  for (const Vec3& half : {Vec3(0.5, 0.4, 0.3), Vec3(0.5, 0.4, 0.15005), Vec3(0.5, 0.15005, 0.1501),
+                           Vec3(0.5, 0.4, 0.15)}) {
+    const TriangleMesh outer = transformed(box(2.0 * half, 3), kAskew);
+    const TriangleTree tree(outer.vertices, outer.faces);
+    const Vec3 middle = kAskew.transpose() * (0.5 * (tree.lower() + tree.upper()));
+    ASSERT_LT(middle.norm(), 1e-6);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> number(-1.0, 1.0);
+    int found = 0;
+    int beyond = 0;
+    for (int i = 0; i < 3000; ++i) {
+      const Vec3 x = half.cwiseProduct(Vec3(number(random), number(random), number(random)));
+      const double away =
+          (x.cwiseAbs() - (half - Vec3::Constant(fits))).cwiseMax(0.0).norm(); // from all places
+      OpeningProbe probe(tree, {fits, reach}); // knows of no other place
+      const auto value = probe.at(kAskew * x, depthInBox(half, x), 1.0, horizon);
+      if (away == 0.0) {
+        ASSERT_TRUE(value);
+        EXPECT_GE(value->value, reach - 1e-12) << x.transpose();
+      } else if (away < reach + horizon - 1e-6) {
+        ASSERT_TRUE(value) << x.transpose() << ' ' << away;
+        EXPECT_NEAR(value->value, reach - away, 1e-6) << x.transpose();
+        EXPECT_NEAR(value->slope.norm(), 1.0, 1e-9);
+        ++found;
+      } else if (away > reach + horizon + 1e-6) {
+        EXPECT_FALSE(value) << x.transpose();
+        ++beyond;
+      }
+    }
+    EXPECT_GT(found, 100);
+    EXPECT_GT(beyond, 10);
+  }
+}
+
+TEST(OpeningProbe, FindsNoPlaceInASheetThatIsTooThin) {
+  const Vec3 half(0.5, 0.4, 0.149);
+  const TriangleMesh outer = transformed(box(2.0 * half, 3), kAskew);
+  const TriangleTree tree(outer.vertices, outer.faces);
+  OpeningProbe probe(tree, {0.15, 0.09});
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> number(-1.0, 1.0);
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 x = half.cwiseProduct(Vec3(number(random), number(random), number(random)));
+    EXPECT_FALSE(probe.at(kAskew * x, depthInBox(half, x), 1.0, 0.03));
+  }
+}
+
+// A plate three walls thick has room for a sheet as wide as a wall.
+TEST(CavityContour, OfAPlateHardlyWiderThanThreeWallsIsASheet) {
+  const double wall = 0.02;
+  for (const double room : {1.0, 1.003, 1.05}) {
+    const Vec3 size(1.0, 0.8, (2.0 + room) * wall);
+    const TriangleMesh outer = transformed(box(size, 3), kAskew);
+    const TriangleTree tree(outer.vertices, outer.faces);
+    const auto cavity = cavityContour(openedSet(tree, wall, 0.5 * wall), {});
+    ASSERT_TRUE(cavity);
+    const TriangleMesh& mesh = cavity->contour.mesh;
+    const double volume = (size - Vec3::Constant(2.0 * wall)).prod();
+    EXPECT_NEAR(signedVolume(mesh.vertices, mesh.faces), volume, 0.01 * volume) << room;
+    EXPECT_LT(mesh.faces.rows(), 5000) << room; // of 30,000 before flat parts are thinned out
+  }
+}
+
+} // namespace
+} // namespace massprops::testing
