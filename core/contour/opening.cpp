@@ -91,8 +91,10 @@ std::optional<Sample> OpeningProbe::at(const Vec3& x, const Sample& depth, doubl
 }
 
 Sample OpeningProbe::depthAt(const Vec3& x, bool isInside) {
+  // Only the very nearest face tells the side.
+  const double exact = isInside ? opening_.fits * opening_.fits : kInfinity;
   const TriangleTree::Hit hit =
-      surface_.nearest(x, kInfinity, nearestFace_, opening_.fits * opening_.fits, slack_);
+      surface_.nearest(x, kInfinity, nearestFace_, exact, isInside ? slack_ : 0.0);
   nearestFace_ = hit.face;
   const double sign = isInside || inside_.contains(x, hit) ? 1.0 : -1.0;
   const TriangleTree::Hit clear = surface_.clearance(x, hit);
