@@ -74,6 +74,21 @@ CavityResult resultOf(Points inner, const Faces& faces, Inspection inspection) {
   return result;
 }
 
+/// Polished with the cut alone, a few times, for each goes a part of an edge's length at most. The
+/// number of evaluations.
+int adjustCut(const CavityTask& task, const LayeredQuadric& quadric, double edge,
+              const std::vector<char>& held, const Contour& contour, Points& vertices) {
+  constexpr int kTimes = 3;
+  int evaluations = 0;
+  for (int i = 0; i < kTimes; ++i) {
+    const Polished polished =
+        polish(task, quadric, Moving::CutAlone, edge, held, contour, vertices);
+    evaluations += polished.evaluations;
+    if (polished.violation <= kFeasibility && !polished.isFarthest) break;
+  }
+  return evaluations;
+}
+
 /// Where the vertices of a contour might go, and the body with the cavity that they make.
 struct Candidate {
   Points vertices; ///< none: they stay where they are
@@ -138,13 +153,7 @@ private:
   }
 
   void adjust(const std::vector<char>& held, Points& vertices) {
-    constexpr int kTimes = 3; // each goes a part of an edge's length at most
-    for (int i = 0; i < kTimes; ++i) {
-      const Polished polished =
-          polish(task_, quadric_, Moving::CutAlone, edge_, held, found_, vertices);
-      evaluations_ += polished.evaluations;
-      if (polished.violation <= kFeasibility && !polished.isFarthest) break;
-    }
+    evaluations_ += adjustCut(task_, quadric_, edge_, held, found_, vertices);
   }
 
   CavityResult inspectedAt(const Points& vertices) {
@@ -279,7 +288,7 @@ Rough roughlyPolished(const CavityTask& task, double edge, const Contour& contou
     return rough;
   };
   Points vertices = contour.mesh.vertices;
-  polish(task, task.bound->worth, Moving::CutAlone, edge, {}, contour, vertices);
+  adjustCut(task, task.bound->worth, edge, {}, contour, vertices);
   Rough moved = roughAt(vertices);
   Rough unmoved = roughAt(contour.mesh.vertices);
   return servesBetter(task, moved.body, unmoved.body) ? std::move(moved) : std::move(unmoved);
