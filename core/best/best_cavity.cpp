@@ -394,15 +394,24 @@ CavityResult inFineCubes(const CavityTask& task, OpenedSet deliverable) {
   constexpr std::array<double, 2> kEnough{0.018, 0.025};       // of what is possible is left
   constexpr std::array<double, 2> kRoughEnough{0.018, 0.0275}; // before all is polished
   constexpr double kWanted = 0.01;
+  // More take more than 60 MB, and so much time that only what is far from the limit is worth it.
+  constexpr double kMany = 250000.0; // cubes
+  constexpr double kFar = 0.03;
+  // Askew rooms as wide as the ball slip through larger ones.
+  constexpr double kResolves = 0.55; // of the ball
   const double more = leeway(task.surface);
   deliverable.edge = edgeThatWillDo(task, deliverable);
   Made best = cavityOf(task, deliverable, more * kRoughEnough[0]);
   double edgeOfBest = deliverable.edge;
   for (std::size_t i = 0; i < kEnough.size(); ++i) {
-    const double gap = gapOf(task, best.result);
-    if (gap <= more * kEnough[i] || best.result.status == CavityStatus::NoRoom) break;
+    const bool isNone = best.result.status == CavityStatus::NoRoom;
+    const double gap = isNone ? gapOf(task, inputBody(task)) : gapOf(task, best.result);
+    if (gap <= more * kEnough[i] || (isNone && deliverable.edge <= kResolves * deliverable.ball))
+      break;
     deliverable.edge *= std::clamp(std::sqrt(kWanted / gap), 0.5, 0.8);
-    if (deliverable.edge < kLeastEdge) break;
+    const double area = surfaceArea(best.result.inner, best.result.cavity.faces);
+    const bool areMany = edgeOfCubes(area, kMany) > deliverable.edge;
+    if (deliverable.edge < kLeastEdge || (areMany && gap <= kFar)) break;
     const bool isLast = i + 1 == kEnough.size();
     Made finer = cavityOf(task, deliverable, isLast ? kAll : kRoughEnough[i + 1]);
     finer.result.effort += best.result.effort;

@@ -122,16 +122,16 @@ std::optional<Sample> chamfer(const Sample& inset, const Sample& cut, double edg
 }
 
 CornerSamples samplesOf(const Corner& corner, const std::optional<Sample>& cut, double edge) {
-  CornerSamples samples{corner.inset, cut, {}};
-  if (corner.mayBeChamfered && corner.inset && cut)
-    samples.chamfer = chamfer(*corner.inset, *cut, edge);
+  CornerSamples samples{corner.inset(), cut, {}};
+  if (corner.mayBeChamfered && samples.inset && cut)
+    samples.chamfer = chamfer(*samples.inset, *cut, edge);
   return samples;
 }
 
 void sampleCorner(InsetProbe& probe, int c, BorderLattice& lattice) {
   Corner& corner = lattice.corners[at(c)];
   const Vec3 x = lattice.positionOf(c);
-  corner.inset = probe.at(x, 2.0 * lattice.edge);
+  corner.setInset(probe.at(x, 2.0 * lattice.edge));
   corner.mayBeChamfered = true;
   corner.isInside = lattice.samplesAt(c).value() > kLeastValue * lattice.edge;
 }
@@ -170,7 +170,8 @@ public:
         const Corner& corner = corners_[numberOf(place + cornerStep(i))];
         if (c >= known) lattice.corners[at(c)] = corner;
         // Where parts meet each has asked for what it needs itself.
-        if (!lattice.corners[at(c)].inset) lattice.corners[at(c)].inset = corner.inset;
+        const std::optional<Sample> inset = corner.inset();
+        if (inset && !lattice.corners[at(c)].hasInset()) lattice.corners[at(c)].setInset(*inset);
       }
     }
   }
@@ -195,14 +196,14 @@ private:
       int& number = numbers_[placeOf(place)];
       if (number < 0) {
         number = static_cast<int>(corners_.size());
-        corners_.push_back({place, true});
+        corners_.emplace_back(place);
         bounds_.emplace_back();
       }
       if (!block.middle) continue;
       Bounds& bounds = bounds_[at(number)];
       bounds.isNearWall = true;
       const Sample& middle = *block.middle;
-      if (step == Place::Ones()) corners_[at(number)].inset = middle;
+      if (step == Place::Ones()) corners_[at(number)].setInset(middle);
       const Vec3 x = positionOf(place);
       const double away = (x - centre).norm() + uncertainty(region_, middle.value);
       bounds.atLeast = std::max(bounds.atLeast, middle.value - away);
@@ -228,9 +229,9 @@ private:
     const Bounds& bounds = bounds_[c];
     corner.isInside = (!cut || cut->value > least) && bounds.atMost > 0.0;
     if (!corner.isInside || isFarBehind(c)) return;
-    if (!corner.inset && (isNearCut || bounds.atLeast <= least))
-      corner.inset = probe_.at(x, kFar * edge_, bounds.atLeast > -region_.wall);
-    corner.mayBeChamfered = corner.inset.has_value();
+    if (!corner.hasInset() && (isNearCut || bounds.atLeast <= least))
+      corner.setInset(probe_.at(x, kFar * edge_, bounds.atLeast > -region_.wall));
+    corner.mayBeChamfered = corner.hasInset();
     corner.isInside = samplesOf(corner, cut, edge_).value() > least;
   }
 
@@ -259,9 +260,9 @@ private:
       }
     }
     for (std::size_t c = 0; c < corners_.size(); ++c) {
-      if (isCrossed[c] == 0 || corners_[c].inset || isFarBehind(c)) continue;
-      corners_[c].inset =
-          probe_.at(positionOf(corners_[c].place), 2.0 * edge_, bounds_[c].atLeast > -region_.wall);
+      if (isCrossed[c] == 0 || corners_[c].hasInset() || isFarBehind(c)) continue;
+      corners_[c].setInset(probe_.at(positionOf(corners_[c].place), 2.0 * edge_,
+                                     bounds_[c].atLeast > -region_.wall));
     }
   }
 
@@ -399,7 +400,7 @@ int BorderLattice::addCorner(const Place& place) {
   const int known = cornerAt(place);
   if (known >= 0) return known;
   cornerNumbers_.add(place, [&](int i) { return placeOfCorner(i); });
-  corners.push_back({place, true});
+  corners.emplace_back(place);
   return static_cast<int>(corners.size()) - 1;
 }
 

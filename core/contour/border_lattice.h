@@ -52,17 +52,36 @@ private:
   int count_ = 0;
 };
 
-/// A corner of cubes. There are very many: the quadric is evaluated again where it is needed.
-struct Corner {
+/// A corner of cubes. There are very many: the quadric is evaluated again where it is needed, and
+/// seven digits are enough for the rest.
+class Corner {
+public:
+  explicit Corner(const Place& where) : place(where) {}
+
   Place place;
   /// Not where the value is negative, and not everywhere else, see `borderLattice`.
-  bool isInside = false;
+  bool isInside = true;
   /// By `takeOut`: the border shall keep away from it.
   bool isTakenOut = false;
   /// Whether inset and cut may come together here at an acute angle.
   bool mayBeChamfered = false;
+
   /// Empty: so far inside that it does not matter.
-  std::optional<Sample> inset = {};
+  std::optional<Sample> inset() const {
+    if (!hasInset_) return std::nullopt;
+    return Sample{value_, slope_.cast<double>()};
+  }
+  bool hasInset() const { return hasInset_; }
+  void setInset(const Sample& sample) {
+    hasInset_ = true;
+    value_ = static_cast<float>(sample.value);
+    slope_ = sample.slope.cast<float>();
+  }
+
+private:
+  bool hasInset_ = false;
+  float value_ = 0.0F;
+  Eigen::Vector3f slope_ = Eigen::Vector3f::Zero();
 };
 
 /// What the region is like at a corner.

@@ -34,14 +34,15 @@ Contour withoutLooseParts(const Contour& contour, double leastVolume) {
 Contour thinnedOut(const Contour& contour, double distance) {
   constexpr double kLeastAngle = 15.0;
   const Points& vertices = contour.mesh.vertices;
-  DecimatedMesh fewer =
-      decimated(vertices, contour.mesh.faces, {vertices.rows(), 0, distance, kLeastAngle});
+  DecimationTarget target{vertices.rows(), 0, distance, kLeastAngle};
+  target.leastFactor = 1.0;
+  DecimatedMesh fewer = decimated(vertices, contour.mesh.faces, target);
   return partOf(contour, std::move(fewer.mesh), fewer.vertexOf);
 }
 
 constexpr double kFlat = 0.002; // walls
 
-/// No more triangles than are wanted, if that costs next to nothing; else all of them.
+/// No more triangles than are wanted, or as few as cost next to nothing.
 Contour withFewTriangles(double wall, Contour contour) {
   constexpr double kCheap = 0.003; // of the volume
   constexpr double kStep = 1.5;
@@ -52,11 +53,11 @@ Contour withFewTriangles(double wall, Contour contour) {
   };
   const double volume = volumeOf(contour);
   double share = kFlat;
-  for (int step = 0; step < kSteps; ++step) {
+  for (int step = 0; step < kSteps && contour.mesh.faces.rows() > kEnoughTriangles; ++step) {
     share *= kStep;
     Contour fewer = thinnedOut(contour, share * wall);
     if (std::abs(volumeOf(fewer) - volume) > kCheap * volume) break;
-    if (fewer.mesh.faces.rows() <= kEnoughTriangles) return fewer;
+    contour = std::move(fewer);
   }
   return contour;
 }

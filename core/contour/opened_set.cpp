@@ -18,8 +18,9 @@ constexpr double kMargin = 1e-5;
 /// How far from the middle of the ball the cavity goes, in its radii: a cube's corner, too, is
 /// reached.
 constexpr double kReach = 1.8;
-/// A room as wide as the ball has place for one that is a little smaller.
-constexpr double kJustFits = 0.999;
+/// A room as wide as the ball has place for one that is a little smaller, for facets make a round
+/// room narrower.
+constexpr double kJustFits = 0.99;
 
 /// Level of the parts where the opening ends: in rooms hardly wider than the ball other borders are
 /// next to it.

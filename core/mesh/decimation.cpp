@@ -17,8 +17,6 @@
 namespace massprops {
 namespace {
 
-/// A copy that is not smaller by this factor does not pay.
-constexpr double kWorthwhile = 1.4;
 /// Weight of an edge's length against the distance from the surface, both squared: little, so that
 /// thin limbs keep more vertices than broad flanks.
 constexpr double kLengthWeight = 5e-4;
@@ -328,18 +326,17 @@ private:
   double mostSquared_ = 0.0;
 };
 
-bool isMuchLess(Eigen::Index size, const Points& vertices) {
-  return static_cast<double>(vertices.rows()) >= kWorthwhile * static_cast<double>(size);
-}
-
 } // namespace
 
 DecimatedMesh decimated(const Points& vertices, const Faces& faces,
                         const DecimationTarget& target) {
-  if (isMuchLess(target.least, vertices)) {
+  const auto isWorthwhile = [&](Eigen::Index size) {
+    return static_cast<double>(vertices.rows()) >= target.leastFactor * static_cast<double>(size);
+  };
+  if (isWorthwhile(target.least)) {
     QuadricDecimation surface(vertices, faces, target);
     surface.reduceTo(target);
-    if (isMuchLess(surface.size(), vertices)) return std::move(surface).result();
+    if (isWorthwhile(surface.size())) return std::move(surface).result();
   }
   std::vector<int> itself(static_cast<std::size_t>(vertices.rows()));
   std::iota(itself.begin(), itself.end(), 0);

@@ -17,6 +17,8 @@ struct DecimationTarget {
   double leastAngle = 0.0; ///< degrees; no triangle gets a smaller one that had a larger
   /// No edge becomes longer; a length in the vertices' unit.
   double longestEdge = std::numeric_limits<double>::infinity();
+  /// The surface itself where it has not so many times as many vertices: a copy would not pay.
+  double leastFactor = 1.4;
 };
 
 struct DecimatedMesh {
@@ -31,8 +33,7 @@ struct DecimatedMesh {
   bool isWhole() const { return vertexOf.size() == vertexFor.size(); }
 };
 
-/// Collapses edges, those first that change the shape least [GH97] and are shortest. The surface
-/// itself where it has not clearly more vertices than wanted.
+/// Collapses edges, those first that change the shape least [GH97] and are shortest.
 /// \pre closed manifold components
 DecimatedMesh decimated(const Points& vertices, const Faces& faces, const DecimationTarget& target);
 
