@@ -125,6 +125,11 @@ private:
     bool isLeast;    ///< see `DisplacementTask`
   };
 
+  struct Closed {
+    CavityResult result;
+    bool isPressed; ///< else any pressing leads to it
+  };
+
   struct Inspected {
     CavityResult result;
     bool isGood; ///< clean and worth it
@@ -141,7 +146,7 @@ private:
   std::vector<Stretched> stretched(Capped capped) const;
   std::optional<Inspected> inspected(const Capped& rough) const;
   std::optional<Inspected> withBridgesClosed(const CavityResult& than);
-  std::optional<CavityResult> closed(const Stretched& caps, const Pressing& pressing) const;
+  std::optional<Closed> closed(const Stretched& caps, const Pressing& pressing) const;
   void dropSpecks(double leastVolume, Capped& capped) const;
   CavityResult resultOf(const Capped& capped) const;
   bool keepsConstraints(const CavityResult& result) const;
@@ -289,14 +294,18 @@ std::optional<Capping::Inspected> Capping::inspected(const Capped& rough) const 
   std::vector<Pressing> pressings;
   if (isAnyFaired) pressings.assign(std::begin(kOfFans), std::end(kOfFans));
   if (isAny(End::Cap)) pressings.insert(pressings.end(), std::begin(kOfCaps), std::end(kOfCaps));
+  Marks isKnown(all.size(), 0);
   for (const Pressing& pressing : pressings) {
-    for (const Stretched& caps : all) {
-      std::optional<CavityResult> result = closed(caps, pressing);
-      if (!result) continue;
-      result->inspection = inspect(result->inner, result->cavity.faces, outer(), task_.wall, false,
-                                   LookFirst::ForAll, found_.clearance.get(), task_.stored);
-      const bool isGood = result->inspection.isClean() && isWorthIt(*result);
-      Inspected tried{*std::move(result), isGood};
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (isKnown[i] != 0) continue;
+      std::optional<Closed> caps = closed(all[i], pressing);
+      if (!caps) continue;
+      isKnown[i] = caps->isPressed ? 0 : 1;
+      CavityResult& result = caps->result;
+      result.inspection = inspect(result.inner, result.cavity.faces, outer(), task_.wall, false,
+                                  LookFirst::ForAll, found_.clearance.get(), task_.stored);
+      const bool isGood = result.inspection.isClean() && isWorthIt(result);
+      Inspected tried{std::move(result), isGood};
       if ((isGood && !isAnyFaired) || ends_.count > kFew) return tried;
       if (isGood && (!best || servesBetter(task_, tried.result, best->result))) {
         best = std::move(tried);
@@ -404,16 +413,20 @@ std::vector<Capping::Stretched> Capping::stretched(Capped capped) const {
 
 /// The caps as they keep the wall and the constraints hold, not inspected yet; empty where they do
 /// not.
-std::optional<CavityResult> Capping::closed(const Stretched& caps, const Pressing& pressing) const {
+std::optional<Capping::Closed> Capping::closed(const Stretched& caps,
+                                               const Pressing& pressing) const {
   constexpr int kRounds = 6;
   CavityResult result = caps.result;
   ClearanceQuery clearance(outer());
   Marks rests(at(result.inner.rows()), 0); // what keeps the wall already
   std::fill_n(rests.begin(), n_, 1);
   Marks atWall(at(result.inner.rows()), 0);
+  bool isPressed = false;
   for (int round = 0; round < kRounds; ++round) {
-    if (!keepsConstraints(result) && !press(*caps.skin, pressing, atWall, result))
-      return std::nullopt;
+    if (!keepsConstraints(result)) {
+      isPressed = true;
+      if (!press(*caps.skin, pressing, atWall, result)) return std::nullopt;
+    }
     Points moved = result.inner;
     const bool isThin =
         !keepWall(clearance, kBeyondWall * task_.wall, result.cavity.faces, moved, rests).empty();
@@ -425,7 +438,7 @@ std::optional<CavityResult> Capping::closed(const Stretched& caps, const Pressin
     if (isThin) break; // the ends where it is are given up: more rounds are slow and in vain
   }
   result.inner = task_.deliverable(result.inner);
-  return result;
+  return Closed{std::move(result), isPressed};
 }
 
 /// Leaves out components that nothing holds, and those of less volume.
