@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <deque>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace massprops {
@@ -56,7 +57,7 @@ private:
 /// seven digits are enough for the rest.
 class Corner {
 public:
-  explicit Corner(const Place& where) : place(where) {}
+  explicit Corner(Place where) : place(std::move(where)) {}
 
   Place place;
   /// Not where the value is negative, and not everywhere else, see `borderLattice`.
