@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 
 namespace massprops {
@@ -222,7 +223,7 @@ private:
     Corner& corner = corners_[c];
     const double least = kLeastValue * edge_;
     constexpr double kFar = 2.0; // edges: no other surface comes near enough for a chamfer
-    const Vec3 x = positionOf(corner.place);
+    const Vec3 x = positionOf(corner.place());
     std::optional<Sample> cut;
     if (region_.quadric) cut = cutAt(region_, x);
     const bool isNearCut = cut && std::abs(cut->value) < kFar * edge_;
@@ -261,7 +262,7 @@ private:
     }
     for (std::size_t c = 0; c < corners_.size(); ++c) {
       if (isCrossed[c] == 0 || corners_[c].hasInset() || isFarBehind(c)) continue;
-      corners_[c].setInset(probe_.at(positionOf(corners_[c].place), 2.0 * edge_,
+      corners_[c].setInset(probe_.at(positionOf(corners_[c].place()), 2.0 * edge_,
                                      bounds_[c].atLeast > -region_.wall));
     }
   }
@@ -321,7 +322,7 @@ void addMissing(const Region& region, BorderLattice& lattice) {
   for (int cube = 0; cube < static_cast<int>(lattice.cubes.size()); ++cube) {
     const unsigned inside = lattice.cornersInside(cube);
     if (inside == 0 || inside == 255) continue;
-    const Place place = lattice.corners[at(lattice.cubes[at(cube)][0])].place;
+    const Place place = lattice.corners[at(lattice.cubes[at(cube)][0])].place();
     for (int axis = 0; axis < 3; ++axis) {
       constexpr std::array<unsigned, 3> kLowSide{0x55, 0x33, 0x0f};
       for (const int step : {-1, 1}) {
@@ -356,7 +357,7 @@ void tame(std::vector<int> wild, BorderLattice& lattice) {
           return valueInside(c) < valueInside(d);
         }))];
     least.isInside = false;
-    const Place place = least.place;
+    const Place place = least.place();
     for (int i = 0; i < 8; ++i) {
       wild.push_back(lattice.addCube(place - cornerStep(i)));
     }
@@ -430,6 +431,9 @@ BorderLattice borderLattice(const Region& region, double edge) {
   lattice.quadric = region.quadric;
   lattice.transition = region.transition;
   const Vec3 high = region.surface.vertices().colwise().maxCoeff().transpose();
+  constexpr double kMostAcross = 32000.0; // what a corner's place can hold
+  if (!((high - lattice.origin).maxCoeff() < kMostAcross * edge))
+    throw std::invalid_argument("cubes of this edge are too many: take larger ones");
   addCrossed(region, high - lattice.origin, lattice);
   addMissing(region, lattice);
   std::vector<int> all(lattice.cubes.size());
@@ -448,7 +452,7 @@ void takeOut(const std::vector<Vec3>& points, BorderLattice& lattice) {
       lattice.corners[at(c)].isInside = false;
       lattice.corners[at(c)].isTakenOut = true;
       for (int j = 0; j < 8; ++j) {
-        around.push_back(lattice.addCube(lattice.corners[at(c)].place - cornerStep(j)));
+        around.push_back(lattice.addCube(lattice.corners[at(c)].place() - cornerStep(j)));
       }
     }
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <optional>
 #include <utility>
@@ -53,19 +54,12 @@ private:
   int count_ = 0;
 };
 
-/// A corner of cubes. There are very many: the quadric is evaluated again where it is needed, and
-/// seven digits are enough for the rest.
+/// A corner of cubes. There are very many: the quadric is evaluated again where it is needed.
 class Corner {
 public:
-  explicit Corner(Place where) : place(std::move(where)) {}
+  explicit Corner(const Place& place) : place_(place.cast<std::int16_t>()) {}
 
-  Place place;
-  /// Not where the value is negative, and not everywhere else, see `borderLattice`.
-  bool isInside = true;
-  /// By `takeOut`: the border shall keep away from it.
-  bool isTakenOut = false;
-  /// Whether inset and cut may come together here at an acute angle.
-  bool mayBeChamfered = false;
+  Place place() const { return place_.cast<int>(); }
 
   /// Empty: so far inside that it does not matter.
   std::optional<Sample> inset() const {
@@ -75,14 +69,23 @@ public:
   bool hasInset() const { return hasInset_; }
   void setInset(const Sample& sample) {
     hasInset_ = true;
-    value_ = static_cast<float>(sample.value);
+    value_ = sample.value;
     slope_ = sample.slope.cast<float>();
   }
 
 private:
-  bool hasInset_ = false;
-  float value_ = 0.0F;
+  double value_ = 0.0;
   Eigen::Vector3f slope_ = Eigen::Vector3f::Zero();
+  Eigen::Matrix<std::int16_t, 3, 1> place_;
+  bool hasInset_ = false;
+
+public:
+  /// Not where the value is negative, and not everywhere else, see `borderLattice`.
+  bool isInside = true;
+  /// By `takeOut`: the border shall keep away from it.
+  bool isTakenOut = false;
+  /// Whether inset and cut may come together here at an acute angle.
+  bool mayBeChamfered = false;
 };
 
 /// What the region is like at a corner.
@@ -116,14 +119,16 @@ struct BorderLattice {
   int addCorner(const Place& place);
 
   Vec3 positionOf(int corner) const {
-    return origin + edge * corners[static_cast<std::size_t>(corner)].place.cast<double>();
+    return origin + edge * corners[static_cast<std::size_t>(corner)].place().cast<double>();
   }
   CornerSamples samplesAt(int corner) const;
   /// A bit for each corner of a cube that is inside.
   unsigned cornersInside(int cube) const;
 
 private:
-  Place placeOfCorner(int corner) const { return corners[static_cast<std::size_t>(corner)].place; }
+  Place placeOfCorner(int corner) const {
+    return corners[static_cast<std::size_t>(corner)].place();
+  }
   Place placeOfCube(int cube) const {
     return placeOfCorner(cubes[static_cast<std::size_t>(cube)][0]);
   }
@@ -132,7 +137,7 @@ private:
 
 /// Cubes of the given edge. Where inset and cut are nearer to each other than a share of it, and
 /// wherever too little is inside for cubes of that size, something is taken out of the region;
-/// never put into it.
+/// never put into it. Throws std::invalid_argument where that is more than 32,000 cubes across.
 BorderLattice borderLattice(const Region& region, double edge);
 
 /// Takes the corners of the cubes around these points out of the region, too.

@@ -1,5 +1,6 @@
 #include "core/contour/cavity_contour.h"
 
+#include "core/base/triangle.h"
 #include "core/contour/projection.h"
 #include "core/contour/slivers.h"
 #include "core/contour/wall_keeping.h"
@@ -45,6 +46,7 @@ constexpr double kFlat = 0.002; // walls
 /// No more triangles than are wanted, or as few as cost next to nothing.
 Contour withFewTriangles(double wall, Contour contour) {
   constexpr double kCheap = 0.003; // of the volume
+  constexpr double kMost = 0.01;
   constexpr double kStep = 1.5;
   constexpr int kSteps = 6;
   if (contour.mesh.faces.rows() <= kEnoughTriangles) return contour;
@@ -52,9 +54,12 @@ Contour withFewTriangles(double wall, Contour contour) {
     return signedVolume(some.mesh.vertices, some.mesh.faces);
   };
   const double volume = volumeOf(contour);
+  const double area = surfaceArea(contour.mesh.vertices, contour.mesh.faces);
   double share = kFlat;
   for (int step = 0; step < kSteps && contour.mesh.faces.rows() > kEnoughTriangles; ++step) {
     share *= kStep;
+    // Afterwards what stands out by so much moves inwards, in the worst case everything.
+    if (share * wall * area > kMost * volume) break;
     Contour fewer = thinnedOut(contour, share * wall);
     if (std::abs(volumeOf(fewer) - volume) > kCheap * volume) break;
     contour = std::move(fewer);

@@ -245,7 +245,7 @@ private:
     const int b = lattice_.cubes[cube][at(1 << axis)];
     const Place u = Place::Unit((axis + 1) % 3);
     const Place w = Place::Unit((axis + 2) % 3);
-    const Place place = corner(a).place;
+    const Place place = corner(a).place();
     // Counter-clockwise seen from the end of the axis.
     std::array<int, 4> ring{};
     int k = 0;

@@ -73,21 +73,22 @@ private:
 } // namespace
 
 OpeningProbe::OpeningProbe(const TriangleTree& surface, const Opening& opening, double slack)
-    : surface_(surface), opening_(opening), slack_(slack), inside_(surface) {}
+    : surface_(surface), opening_(opening), slack_(slack), inside_(surface),
+      spacing_(0.5 * opening.reach), nodeReach_(0.5 * std::sqrt(3.0) * spacing_) {}
 
 std::optional<Sample> OpeningProbe::at(const Vec3& x, const Sample& depth, double enough,
                                        double horizon) {
   const Sample surely{kInfinity, Vec3::UnitX()};
   if (depth.value >= opening_.fits || isSurely(x, enough)) return surely;
   const double farthest = opening_.reach + horizon;
-  const std::optional<Vec3> place = placeNear(x, depth, farthest);
-  if (place) known_ = place;
-  if (!known_) return {};
-  const double away = (*known_ - x).norm();
-  if (away > farthest) return {};
+  std::optional<Vec3> place = placeNear(x, depth, farthest);
+  if (!place) place = placeAround(x, std::min(farthest, opening_.reach + spacing_));
+  if (!place) return {};
+  known_ = place;
+  const double away = (*place - x).norm();
   const double value = opening_.reach - away;
   if (value >= enough) return surely;
-  return Sample{value, (*known_ - x) / std::max(away, kTiny)};
+  return Sample{value, (*place - x) / std::max(away, kTiny)};
 }
 
 Sample OpeningProbe::depthAt(const Vec3& x, bool isInside) {
@@ -117,6 +118,56 @@ std::optional<Vec3> OpeningProbe::placeNear(const Vec3& x, const Sample& depth, 
     if (here.value >= enough) return y;
   }
   return {};
+}
+
+/// The nearest one next to a node, moved towards x as far as the ball fits.
+std::optional<Vec3> OpeningProbe::placeAround(const Vec3& x, double farthest) {
+  const Vec3 origin = surface_.lower();
+  const double around = farthest + nodeReach_;
+  const Eigen::Array3i first = (((x - origin).array() - around) / spacing_).ceil().cast<int>();
+  const Eigen::Array3i last = (((x - origin).array() + around) / spacing_).floor().cast<int>();
+  std::optional<Vec3> nearest;
+  double least = farthest + spacing_;
+  Eigen::Array3i node;
+  for (node.z() = first.z(); node.z() <= last.z(); ++node.z()) {
+    for (node.y() = first.y(); node.y() <= last.y(); ++node.y()) {
+      for (node.x() = first.x(); node.x() <= last.x(); ++node.x()) {
+        const Vec3 there = origin + spacing_ * node.matrix().cast<double>();
+        if ((there - x).squaredNorm() > around * around) continue;
+        const std::optional<Vec3>& place = placeAtNode(node);
+        if (!place || (*place - x).norm() >= least) continue;
+        nearest = place;
+        least = (*place - x).norm();
+      }
+    }
+  }
+  if (!nearest) return {};
+  constexpr int kHalvings = 6;
+  Vec3 from = *nearest;
+  Vec3 to = x;
+  for (int i = 0; i < kHalvings; ++i) {
+    const Vec3 middle = 0.5 * (from + to);
+    (depthAt(middle, false).value >= opening_.fits ? from : to) = middle;
+  }
+  if ((from - x).norm() > farthest) return {};
+  return from;
+}
+
+/// Depends on the node alone: probes that come to it another way find the same.
+const std::optional<Vec3>& OpeningProbe::placeAtNode(const Eigen::Array3i& node) {
+  const Eigen::Array<std::int64_t, 3, 1> n = node.cast<std::int64_t>();
+  const std::int64_t key = n.x() + (n.y() << 21) + (n.z() << 42);
+  const auto [entry, isNew] = placesAtNodes_.try_emplace(key);
+  std::optional<Vec3>& place = entry->second;
+  if (!isNew) return place;
+  const Vec3 x = surface_.lower() + spacing_ * node.matrix().cast<double>();
+  const Sample depth = depthAt(x, false);
+  if (depth.value >= opening_.fits) {
+    place = x;
+  } else if (depth.value >= opening_.fits - nodeReach_) {
+    place = placeNear(x, depth, nodeReach_);
+  }
+  return place;
 }
 
 } // namespace massprops

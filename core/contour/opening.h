@@ -5,7 +5,9 @@
 #include "core/query/point_in_mesh.h"
 #include "core/query/triangle_tree.h"
 
+#include <cstdint>
 #include <optional>
+#include <unordered_map>
 
 namespace massprops {
 
@@ -27,7 +29,8 @@ public:
   /// where no place is found within the reach and `horizon`.
   ///
   /// By cutting planes [Kel60]: where depth bends down, as in a room between walls, that is the
-  /// nearest one; elsewhere it may be passed over for another.
+  /// nearest one. Elsewhere, as where plates meet, all may be passed over: there those next to the
+  /// nodes of a grid count.
   std::optional<Sample> at(const Vec3& x, const Sample& depth, double enough, double horizon);
 
   /// Whether `at` is known to be as much at least.
@@ -40,6 +43,8 @@ public:
 
 private:
   std::optional<Vec3> placeNear(const Vec3& x, const Sample& depth, double farthest);
+  std::optional<Vec3> placeAround(const Vec3& x, double farthest);
+  const std::optional<Vec3>& placeAtNode(const Eigen::Array3i& node);
 
   const TriangleTree& surface_;
   Opening opening_;
@@ -47,6 +52,9 @@ private:
   PointInMesh inside_;
   int nearestFace_ = -1;
   std::optional<Vec3> known_; ///< the last place
+  double spacing_;            ///< of nodes
+  double nodeReach_;          ///< how far a node's place may be from it: half a cube's diagonal
+  std::unordered_map<std::int64_t, std::optional<Vec3>> placesAtNodes_; ///< as far as asked for
 };
 
 } // namespace massprops

@@ -6,8 +6,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
+#include <vector>
 
 namespace massprops::testing {
 namespace {
@@ -71,6 +74,56 @@ TEST(OpeningProbe, FindsNoPlaceInASheetThatIsTooThin) {
     const Vec3 x = half.cwiseProduct(Vec3(number(random), number(random), number(random)));
     EXPECT_FALSE(probe.at(kAskew * x, depthInBox(half, x), 1.0, 0.03));
   }
+}
+
+// Of two plates too thin for the ball the corner where they meet has place for it: around the edge
+// that bulges into the room depth does not bend down.
+TEST(OpeningProbe, FindsTheCornerOfTwoThinPlates) {
+  const double thickness = 0.26;
+  const double fits = 0.15;
+  const double reach = 0.09;
+  std::vector<std::array<int, 3>> cells{{0, 0, 0}};
+  for (int i = 1; i < 5; ++i) {
+    cells.push_back({i, 0, 0});
+    cells.push_back({0, i, 0});
+  }
+  std::vector<std::array<int, 3>> tall; // so that its ends are far away
+  for (const auto& cell : cells) {
+    for (int k = 0; k < 5; ++k) tall.push_back({cell[0], cell[1], k});
+  }
+  TriangleMesh outer = polycube(tall, 1);
+  outer.vertices *= thickness;
+  const TriangleTree tree(outer.vertices, outer.faces);
+  std::vector<Vec2> places;
+  for (int i = 0; i < 400; ++i) {
+    for (int j = 0; j < 400; ++j) {
+      const Vec2 place = Vec2::Constant(fits) + 0.0005 * Vec2(i, j);
+      if ((place - Vec2::Constant(thickness)).norm() >= fits && place.maxCoeff() < thickness)
+        places.push_back(place);
+    }
+  }
+  ASSERT_FALSE(places.empty());
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> number(0.01, 0.5);
+  int found = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec2 inPlane(number(random), number(random));
+    if (inPlane.minCoeff() > thickness - 0.01) continue;
+    double away = 1.0;
+    for (const Vec2& place : places) away = std::min(away, (place - inPlane).norm());
+    const Vec3 x(inPlane.x(), inPlane.y(), 2.5 * thickness);
+    OpeningProbe probe(tree, {fits, reach});
+    const auto value = probe.at(x, probe.depthAt(x, true), 1.0, 0.02);
+    if (away < reach - 0.01) {
+      ASSERT_TRUE(value) << x.transpose();
+      EXPECT_GT(std::min(value->value, reach), reach - away - 0.01) << x.transpose();
+      ++found;
+    }
+    if (value) {
+      EXPECT_LT(std::min(value->value, reach), reach - away + 0.001) << x.transpose();
+    }
+  }
+  EXPECT_GT(found, 50);
 }
 
 // A plate three walls thick has room for a sheet as wide as a wall.
