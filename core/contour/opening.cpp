@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 namespace massprops {
 namespace {
@@ -80,9 +81,17 @@ std::optional<Sample> OpeningProbe::at(const Vec3& x, const Sample& depth, doubl
                                        double horizon) {
   const Sample surely{kInfinity, Vec3::UnitX()};
   if (depth.value >= opening_.fits || isSurely(x, enough)) return surely;
+  constexpr double kNearly = 1.001;
   const double farthest = opening_.reach + horizon;
   std::optional<Vec3> place = placeNear(x, depth, farthest);
-  if (!place) place = placeAround(x, std::min(farthest, opening_.reach + spacing_));
+  const double nearer = place ? (*place - x).norm() : farthest;
+  // No place is nearer than what depth misses, for it grows by no more than one moves.
+  const bool isNearest = place && nearer <= kNearly * (opening_.fits - depth.value);
+  if (!place || (enough > 0.0 && opening_.reach - nearer < enough && !isNearest)) {
+    const Vec3 onSurface = x - depth.value * depth.slope;
+    const auto other = placeAround(x, onSurface, std::min(nearer, opening_.reach + spacing_));
+    if (other) place = other;
+  }
   if (!place) return {};
   known_ = place;
   const double away = (*place - x).norm();
@@ -121,20 +130,24 @@ std::optional<Vec3> OpeningProbe::placeNear(const Vec3& x, const Sample& depth, 
 }
 
 /// The nearest one next to a node, moved towards x as far as the ball fits.
-std::optional<Vec3> OpeningProbe::placeAround(const Vec3& x, double farthest) {
+std::optional<Vec3> OpeningProbe::placeAround(const Vec3& x, const Vec3& onSurface,
+                                              double farthest) {
   const Vec3 origin = surface_.lower();
   const double around = farthest + nodeReach_;
   const Eigen::Array3i first = (((x - origin).array() - around) / spacing_).ceil().cast<int>();
   const Eigen::Array3i last = (((x - origin).array() + around) / spacing_).floor().cast<int>();
   std::optional<Vec3> nearest;
-  double least = farthest + spacing_;
+  double least = farthest;
+  const double tooNear = opening_.fits - nodeReach_; // for there to be a place next to a node
   Eigen::Array3i node;
   for (node.z() = first.z(); node.z() <= last.z(); ++node.z()) {
     for (node.y() = first.y(); node.y() <= last.y(); ++node.y()) {
       for (node.x() = first.x(); node.x() <= last.x(); ++node.x()) {
         const Vec3 there = origin + spacing_ * node.matrix().cast<double>();
-        if ((there - x).squaredNorm() > around * around) continue;
-        const std::optional<Vec3>& place = placeAtNode(node);
+        const double within = least + nodeReach_; // else another place is nearer
+        if ((there - x).squaredNorm() > within * within) continue;
+        if ((there - onSurface).squaredNorm() < tooNear * tooNear) continue;
+        const std::optional<Vec3> place = placeAtNode(node);
         if (!place || (*place - x).norm() >= least) continue;
         nearest = place;
         least = (*place - x).norm();
@@ -153,21 +166,45 @@ std::optional<Vec3> OpeningProbe::placeAround(const Vec3& x, double farthest) {
   return from;
 }
 
-/// Depends on the node alone: probes that come to it another way find the same.
-const std::optional<Vec3>& OpeningProbe::placeAtNode(const Eigen::Array3i& node) {
+/// Depends on the node alone, whichever probe comes to it first: exact for all.
+std::optional<Vec3> OpeningProbe::placeAtNode(const Eigen::Array3i& node) {
   const Eigen::Array<std::int64_t, 3, 1> n = node.cast<std::int64_t>();
-  const std::int64_t key = n.x() + (n.y() << 21) + (n.z() << 42);
-  const auto [entry, isNew] = placesAtNodes_.try_emplace(key);
-  std::optional<Vec3>& place = entry->second;
-  if (!isNew) return place;
+  const std::int64_t number = n.x() + (n.y() << 21) + (n.z() << 42);
+  if (const auto found = opening_.known->find(number)) return *found;
   const Vec3 x = surface_.lower() + spacing_ * node.matrix().cast<double>();
-  const Sample depth = depthAt(x, false);
-  if (depth.value >= opening_.fits) {
-    place = x;
-  } else if (depth.value >= opening_.fits - nodeReach_) {
-    place = placeNear(x, depth, nodeReach_);
+  const double tooNear = opening_.fits - nodeReach_;
+  const double slack = std::exchange(slack_, 0.0);
+  std::optional<Vec3> place;
+  // On either side of the surface; which one it is takes longer.
+  if (depthAt(x, true).value >= tooNear) {
+    const Sample depth = depthAt(x, false);
+    if (depth.value >= opening_.fits) {
+      place = x;
+    } else if (depth.value >= tooNear) {
+      place = placeNear(x, depth, nodeReach_);
+    }
   }
+  slack_ = slack;
+  opening_.known->add(number, place);
   return place;
+}
+
+std::optional<std::optional<Vec3>> PlacesAtNodes::find(std::int64_t node) const {
+  const Part& part = parts_[partOf(node)];
+  const std::lock_guard lock(part.access);
+  const auto found = part.places.find(node);
+  if (found == part.places.end()) return std::nullopt;
+  return found->second;
+}
+
+void PlacesAtNodes::add(std::int64_t node, const std::optional<Vec3>& place) {
+  Part& part = parts_[partOf(node)];
+  const std::lock_guard lock(part.access);
+  part.places.emplace(node, place);
+}
+
+std::size_t PlacesAtNodes::partOf(std::int64_t node) {
+  return static_cast<std::size_t>(node ^ node >> 21 ^ node >> 42) % kParts;
 }
 
 } // namespace massprops

@@ -5,16 +5,41 @@
 #include "core/query/point_in_mesh.h"
 #include "core/query/triangle_tree.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <unordered_map>
 
 namespace massprops {
 
+/// Places of the ball's middle next to nodes of a grid, by the nodes' numbers, as far as they were
+/// asked for, by any thread: they are worked out once.
+class PlacesAtNodes {
+public:
+  /// Empty: it is not known yet; of an empty place: that there is none.
+  std::optional<std::optional<Vec3>> find(std::int64_t node) const;
+  void add(std::int64_t node, const std::optional<Vec3>& place);
+
+private:
+  struct Part {
+    mutable std::mutex access;
+    std::unordered_map<std::int64_t, std::optional<Vec3>> places;
+  };
+  static constexpr std::size_t kParts = 64; // so that threads seldom wait
+  static std::size_t partOf(std::int64_t node);
+
+  std::array<Part, kParts> parts_;
+};
+
 /// Lengths.
 struct Opening {
   double fits;  ///< least depth behind the surface at which the ball's middle may be
   double reach; ///< what is farther than that from every such place is too narrow
+  /// What probes of it know together.
+  std::shared_ptr<PlacesAtNodes> known = std::make_shared<PlacesAtNodes>();
 };
 
 /// Looks for the nearest place that the ball's middle may be at, of points one after the other; it
@@ -29,8 +54,8 @@ public:
   /// where no place is found within the reach and `horizon`.
   ///
   /// By cutting planes [Kel60]: where depth bends down, as in a room between walls, that is the
-  /// nearest one. Elsewhere, as where plates meet, all may be passed over: there those next to the
-  /// nodes of a grid count.
+  /// nearest one. Elsewhere, as where plates meet, it may be passed over: where the place found is
+  /// not near enough those next to the nodes of a grid count, too.
   std::optional<Sample> at(const Vec3& x, const Sample& depth, double enough, double horizon);
 
   /// Whether `at` is known to be as much at least.
@@ -43,8 +68,8 @@ public:
 
 private:
   std::optional<Vec3> placeNear(const Vec3& x, const Sample& depth, double farthest);
-  std::optional<Vec3> placeAround(const Vec3& x, double farthest);
-  const std::optional<Vec3>& placeAtNode(const Eigen::Array3i& node);
+  std::optional<Vec3> placeAround(const Vec3& x, const Vec3& onSurface, double farthest);
+  std::optional<Vec3> placeAtNode(const Eigen::Array3i& node);
 
   const TriangleTree& surface_;
   Opening opening_;
@@ -54,7 +79,6 @@ private:
   std::optional<Vec3> known_; ///< the last place
   double spacing_;            ///< of nodes
   double nodeReach_;          ///< how far a node's place may be from it: half a cube's diagonal
-  std::unordered_map<std::int64_t, std::optional<Vec3>> placesAtNodes_; ///< as far as asked for
 };
 
 } // namespace massprops
