@@ -367,8 +367,8 @@ double edgeThatWillDo(const CavityTask& task, const OpenedSet& deliverable) {
   constexpr double kLarger = 2.0;
   constexpr double kWanted = 0.010; // before all is polished
   constexpr double kUncut = 1.2;
-  // Ceilings that shall carry themselves ask for more.
-  if (deliverable.fill) return deliverable.edge;
+  constexpr double kCarrying = 0.85; // ceilings that shall carry themselves ask for more
+  if (deliverable.fill) return kCarrying * deliverable.edge;
   if (!isCut(task)) return kUncut * leewayOfEdge(task.surface) * deliverable.edge;
   OpenedSet coarse = deliverable;
   coarse.edge *= kLarger;
