@@ -169,7 +169,8 @@ std::optional<Vec3> OpeningProbe::placeAround(const Vec3& x, const Vec3& onSurfa
 /// Depends on the node alone, whichever probe comes to it first: exact for all.
 std::optional<Vec3> OpeningProbe::placeAtNode(const Eigen::Array3i& node) {
   const Eigen::Array<std::int64_t, 3, 1> n = node.cast<std::int64_t>();
-  const std::int64_t number = n.x() + (n.y() << 21) + (n.z() << 42);
+  constexpr std::int64_t kAcross = std::int64_t{1} << 21; // more nodes than any grid has
+  const std::int64_t number = n.x() + kAcross * (n.y() + kAcross * n.z());
   if (const auto found = opening_.known->find(number)) return *found;
   const Vec3 x = surface_.lower() + spacing_ * node.matrix().cast<double>();
   const double tooNear = opening_.fits - nodeReach_;
