@@ -166,7 +166,8 @@ std::optional<Vec3> OpeningProbe::placeAround(const Vec3& x, const Vec3& onSurfa
   return from;
 }
 
-/// Depends on the node alone, whichever probe comes to it first: exact for all.
+/// Depends on the node alone, and leaves no trace in the probe: so it does not matter which probe
+/// comes to it first.
 std::optional<Vec3> OpeningProbe::placeAtNode(const Eigen::Array3i& node) {
   const Eigen::Array<std::int64_t, 3, 1> n = node.cast<std::int64_t>();
   constexpr std::int64_t kAcross = std::int64_t{1} << 21; // more nodes than any grid has
@@ -175,6 +176,7 @@ std::optional<Vec3> OpeningProbe::placeAtNode(const Eigen::Array3i& node) {
   const Vec3 x = surface_.lower() + spacing_ * node.matrix().cast<double>();
   const double tooNear = opening_.fits - nodeReach_;
   const double slack = std::exchange(slack_, 0.0);
+  const int face = std::exchange(nearestFace_, -1);
   std::optional<Vec3> place;
   // On either side of the surface; which one it is takes longer.
   if (depthAt(x, true).value >= tooNear) {
@@ -186,6 +188,8 @@ std::optional<Vec3> OpeningProbe::placeAtNode(const Eigen::Array3i& node) {
     }
   }
   slack_ = slack;
+  nearestFace_ = face;
+
   opening_.known->add(number, place);
   return place;
 }
@@ -201,6 +205,7 @@ std::optional<std::optional<Vec3>> PlacesAtNodes::find(std::int64_t node) const 
 void PlacesAtNodes::add(std::int64_t node, const std::optional<Vec3>& place) {
   Part& part = parts_[partOf(node)];
   const std::lock_guard lock(part.access);
+  if (part.places.size() >= kMost) part.places.clear(); // those asked for next are near each other
   part.places.emplace(node, place);
 }
 

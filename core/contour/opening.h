@@ -15,11 +15,11 @@
 
 namespace massprops {
 
-/// Places of the ball's middle next to nodes of a grid, by the nodes' numbers, as far as they were
-/// asked for, by any thread: they are worked out once.
+/// Places of the ball's middle next to nodes of a grid, by the nodes' numbers, that were asked for
+/// lately, by any thread.
 class PlacesAtNodes {
 public:
-  /// Empty: it is not known yet; of an empty place: that there is none.
+  /// Empty: it is not known; of an empty place: that there is none.
   std::optional<std::optional<Vec3>> find(std::int64_t node) const;
   void add(std::int64_t node, const std::optional<Vec3>& place);
 
@@ -28,7 +28,8 @@ private:
     mutable std::mutex access;
     std::unordered_map<std::int64_t, std::optional<Vec3>> places;
   };
-  static constexpr std::size_t kParts = 64; // so that threads seldom wait
+  static constexpr std::size_t kParts = 64;  // so that threads seldom wait
+  static constexpr std::size_t kMost = 1500; // in each: 6 MB in all
   static std::size_t partOf(std::int64_t node);
 
   std::array<Part, kParts> parts_;

@@ -126,6 +126,39 @@ TEST(OpeningProbe, FindsTheCornerOfTwoThinPlates) {
   EXPECT_GT(found, 50);
 }
 
+// Else bodies would depend on how threads take turns.
+TEST(OpeningProbe, FindsTheSameWhetherAnotherProbeCameBeforeIt) {
+  const TriangleMesh outer = transformed(box(Vec3(1.0, 0.8, 0.3), 7), kAskew);
+  const TriangleTree tree(outer.vertices, outer.faces);
+  const Opening opening{0.145, 0.3};
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> number(-1.0, 1.0);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 3000; ++i) {
+    const Vec3 x(number(random), number(random), number(random));
+    points.emplace_back(kAskew * Vec3(0.49, 0.39, 0.149).cwiseProduct(x));
+  }
+  constexpr double kSlack = 0.05;
+  const auto values = [&](const Opening& places) {
+    OpeningProbe probe(tree, places, kSlack);
+    std::vector<Sample> result;
+    for (const Vec3& x : points) {
+      const auto value = probe.at(x, probe.depthAt(x, true), 0.29, 0.02);
+      result.push_back(value.value_or(Sample{-1.0, Vec3::Zero()}));
+    }
+    return result;
+  };
+  const std::vector<Sample> first = values(opening);
+  const std::vector<Sample> second = values(opening);
+  int found = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_EQ(first[i].value, second[i].value) << i;
+    EXPECT_EQ(first[i].slope, second[i].slope) << i;
+    if (first[i].value > 0.0 && first[i].value < 0.29) ++found;
+  }
+  EXPECT_GT(found, 300);
+}
+
 // A plate three walls thick has room for a sheet as wide as a wall.
 TEST(CavityContour, OfAPlateHardlyWiderThanThreeWallsIsASheet) {
   const double wall = 0.02;
