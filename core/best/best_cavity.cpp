@@ -397,6 +397,7 @@ CavityResult inFineCubes(const CavityTask& task, OpenedSet deliverable) {
   // More take more than 60 MB, and so much time that only what is far from the limit is worth it.
   constexpr double kMany = 250000.0; // cubes
   constexpr double kFar = 0.03;
+  constexpr double kWantedOfMany = 0.02;
   // Askew rooms as wide as the ball slip through larger ones.
   constexpr double kResolves = 0.55; // of the ball
   const double more = leeway(task.surface);
@@ -408,10 +409,14 @@ CavityResult inFineCubes(const CavityTask& task, OpenedSet deliverable) {
     const double gap = isNone ? gapOf(task, inputBody(task)) : gapOf(task, best.result);
     if (gap <= more * kEnough[i] || (isNone && deliverable.edge <= kResolves * deliverable.ball))
       break;
-    deliverable.edge *= std::clamp(std::sqrt(kWanted / gap), 0.5, 0.8);
+    const auto edgeFor = [&](double wanted) {
+      return deliverable.edge * std::clamp(std::sqrt(wanted / gap), 0.5, 0.8);
+    };
     const double area = surfaceArea(best.result.inner, best.result.cavity.faces);
-    const bool areMany = edgeOfCubes(area, kMany) > deliverable.edge;
-    if (deliverable.edge < kLeastEdge || (areMany && gap <= kFar)) break;
+    const bool areMany = edgeOfCubes(area, kMany) > edgeFor(kWanted);
+    if (areMany && gap <= kFar) break;
+    deliverable.edge = edgeFor(areMany ? kWantedOfMany : kWanted);
+    if (deliverable.edge < kLeastEdge) break;
     const bool isLast = i + 1 == kEnough.size();
     Made finer = cavityOf(task, deliverable, isLast ? kAll : kRoughEnough[i + 1]);
     finer.result.effort += best.result.effort;

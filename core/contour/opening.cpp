@@ -189,7 +189,6 @@ std::optional<Vec3> OpeningProbe::placeAtNode(const Eigen::Array3i& node) {
   }
   slack_ = slack;
   nearestFace_ = face;
-
   opening_.known->add(number, place);
   return place;
 }
