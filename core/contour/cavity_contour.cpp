@@ -2,6 +2,7 @@
 
 #include "core/base/triangle.h"
 #include "core/contour/projection.h"
+#include "core/contour/shape_guard.h"
 #include "core/contour/slivers.h"
 #include "core/contour/wall_keeping.h"
 #include "core/mesh/components.h"
@@ -111,6 +112,17 @@ Contour smoothed(const Region& region, double edge, Contour contour) {
   return contour;
 }
 
+/// To the middle of their neighbours in `from`.
+void moveToMiddles(const std::vector<int>& some, const VertexAdjacency& neighbours,
+                   const Points& from, Points& vertices) {
+  for (const int v : some) {
+    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+    const IndexRange around = neighbours[static_cast<std::size_t>(v)];
+    for (const int w : around) sum += from.row(w);
+    vertices.row(v) = sum / static_cast<double>(around.size());
+  }
+}
+
 /// Moves the corners of faces that cross each other to the middle of their neighbours, where the
 /// walls allow it, until none do; the faces that still do. Where few cross that is quicker by far
 /// than to make the surface again.
@@ -120,14 +132,11 @@ std::vector<int> untangle(ClearanceQuery& clearance, double wall, TriangleMesh& 
   for (int round = 0; round < kRounds && !crossing.empty(); ++round) {
     const VertexAdjacency neighbours = vertexAdjacency(mesh.vertices.rows(), mesh.faces);
     const Points before = mesh.vertices;
+    std::vector<int> corners;
     for (const int f : crossing) {
-      for (const int v : mesh.faces.row(f)) {
-        Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-        const IndexRange around = neighbours[static_cast<std::size_t>(v)];
-        for (const int w : around) sum += before.row(w);
-        mesh.vertices.row(v) = sum / static_cast<double>(around.size());
-      }
+      for (const int v : mesh.faces.row(f)) corners.push_back(v);
     }
+    moveToMiddles(corners, neighbours, before, mesh.vertices);
     if (!keepWall(clearance, wall, mesh.faces, mesh.vertices).empty()) {
       mesh.vertices = before;
       break;
@@ -135,6 +144,30 @@ std::vector<int> untangle(ClearanceQuery& clearance, double wall, TriangleMesh& 
     crossing = selfIntersectingFaces(mesh.vertices, mesh.faces);
   }
   return crossing;
+}
+
+/// Vertices that stay too near to the surface, where they are few, go to the middle of their
+/// neighbours, too. Those that even then are too near, which are left where they were.
+std::vector<int> keepWallOrSmooth(TriangleMesh& mesh, ClearanceQuery& clearance, double wall) {
+  constexpr int kRounds = 2;
+  constexpr std::size_t kFew = 100;
+  const Points unmoved = mesh.vertices;
+  std::vector<int> thin = keepWall(clearance, wall, mesh.faces, mesh.vertices);
+  for (int round = 0; round < kRounds && !thin.empty() && thin.size() < kFew; ++round) {
+    const VertexAdjacency neighbours = vertexAdjacency(mesh.vertices.rows(), mesh.faces);
+    const Points before = mesh.vertices;
+    Points targets = before;
+    moveToMiddles(thin, neighbours, before, targets);
+    moveSoundly(targets, mesh.faces, mesh.vertices);
+    std::vector<int> left = keepWall(clearance, wall, mesh.faces, mesh.vertices);
+    if (left.size() >= thin.size()) {
+      mesh.vertices = before;
+      break;
+    }
+    thin = std::move(left);
+  }
+  for (const int v : thin) mesh.vertices.row(v) = unmoved.row(v);
+  return thin;
 }
 
 /// Corners of triangles that come too near to the surface, and of those that cross each other.
@@ -147,7 +180,7 @@ struct Troubles {
 Troubles troublesLeft(ClearanceQuery& clearance, double wall, Contour& contour) {
   TriangleMesh& mesh = contour.mesh;
   Troubles troubles;
-  for (const int v : keepWall(clearance, wall, mesh.faces, mesh.vertices))
+  for (const int v : keepWallOrSmooth(mesh, clearance, wall))
     troubles.thin.emplace_back(mesh.vertices.row(v).transpose());
   if (!troubles.thin.empty()) return troubles;
   for (const int f : untangle(clearance, wall, mesh)) {
