@@ -49,11 +49,15 @@ public:
     const Vec3 centre = origin_ + edge_ * place.cast<double>() + Vec3::Constant(0.5 * size);
     Block block{place, {}};
     if (!isDeep) {
-      block.middle = probe_.at(centre, radius, atLeast > -region_.wall);
+      constexpr int kLarge = 3; // from most of their middles no place of the ball is found
+      const bool isInside = atLeast > -region_.wall;
+      block.middle = level >= kLarge ? probe_.roughlyAt(centre, radius, isInside)
+                                     : probe_.at(centre, radius, isInside);
       block.isOfSurface = probe_.isOfSurface();
       const double value = block.middle->value;
       const double sure = radius + uncertainty(region_, value);
-      if (value <= -sure) return;
+      const bool isInDoubt = probe_.isInDoubt() && level > 1; // next to small ones nodes tell
+      if (value <= -sure && !isInDoubt) return;
       isDeep = value >= sure;
       atLeast = value - sure + 0.5 * radius; // in the middles of its parts
     }

@@ -71,6 +71,31 @@ private:
   std::optional<Vec3> shortest_;
 };
 
+constexpr int kSide = 4; // nodes along a block's
+
+/// From a block's first node, in their distance.
+Vec3 stepTo(std::size_t node) {
+  const auto i = static_cast<int>(node);
+  return {static_cast<double>(i % kSide), static_cast<double>(i / kSide % kSide),
+          static_cast<double>(i / (kSide * kSide))};
+}
+
+std::int64_t numberOf(const Eigen::Array3i& block) {
+  constexpr std::int64_t kAcross = std::int64_t{1} << 20; // more blocks than any grid has
+  const Eigen::Array<std::int64_t, 3, 1> n = block.cast<std::int64_t>();
+  return n.x() + kAcross * (n.y() + kAcross * n.z());
+}
+
+NodePlaces joined(const NodePlaces& a, const NodePlaces& b) {
+  NodePlaces all;
+  for (std::size_t i = 0; i < all.known.size(); ++i) {
+    if (!a.known[i] && !b.known[i]) continue;
+    const bool isFound = a.found[i] || b.found[i];
+    all.add(i, isFound ? std::optional(a.found[i] ? a.of(i) : b.of(i)) : std::nullopt);
+  }
+  return all;
+}
+
 } // namespace
 
 OpeningProbe::OpeningProbe(const TriangleTree& surface, const Opening& opening, double slack)
@@ -89,7 +114,8 @@ std::optional<Sample> OpeningProbe::at(const Vec3& x, const Sample& depth, doubl
   const bool isNearest = place && nearer <= kNearly * (opening_.fits - depth.value);
   if (!place || (enough > 0.0 && opening_.reach - nearer < enough && !isNearest)) {
     const Vec3 onSurface = x - depth.value * depth.slope;
-    const auto other = placeAround(x, onSurface, std::min(nearer, opening_.reach + spacing_));
+    const double near = opening_.reach + std::max(std::min(horizon, opening_.reach), spacing_);
+    const auto other = placeAround(x, onSurface, std::min(nearer, near));
     if (other) place = other;
   }
   if (!place) return {};
@@ -132,25 +158,18 @@ std::optional<Vec3> OpeningProbe::placeNear(const Vec3& x, const Sample& depth, 
 /// The nearest one next to a node, moved towards x as far as the ball fits.
 std::optional<Vec3> OpeningProbe::placeAround(const Vec3& x, const Vec3& onSurface,
                                               double farthest) {
-  const Vec3 origin = surface_.lower();
+  const Vec3 fromOrigin = x - surface_.lower();
+  const double side = kSide * spacing_;
   const double around = farthest + nodeReach_;
-  const Eigen::Array3i first = (((x - origin).array() - around) / spacing_).ceil().cast<int>();
-  const Eigen::Array3i last = (((x - origin).array() + around) / spacing_).floor().cast<int>();
+  const Eigen::Array3i first = ((fromOrigin.array() - around) / side).floor().cast<int>();
+  const Eigen::Array3i last = ((fromOrigin.array() + around) / side).floor().cast<int>();
   std::optional<Vec3> nearest;
-  double least = farthest;
-  const double tooNear = opening_.fits - nodeReach_; // for there to be a place next to a node
-  Eigen::Array3i node;
-  for (node.z() = first.z(); node.z() <= last.z(); ++node.z()) {
-    for (node.y() = first.y(); node.y() <= last.y(); ++node.y()) {
-      for (node.x() = first.x(); node.x() <= last.x(); ++node.x()) {
-        const Vec3 there = origin + spacing_ * node.matrix().cast<double>();
-        const double within = least + nodeReach_; // else another place is nearer
-        if ((there - x).squaredNorm() > within * within) continue;
-        if ((there - onSurface).squaredNorm() < tooNear * tooNear) continue;
-        const std::optional<Vec3> place = placeAtNode(node);
-        if (!place || (*place - x).norm() >= least) continue;
-        nearest = place;
-        least = (*place - x).norm();
+  Eigen::Array3i block;
+  for (block.z() = first.z(); block.z() <= last.z(); ++block.z()) {
+    for (block.y() = first.y(); block.y() <= last.y(); ++block.y()) {
+      for (block.x() = first.x(); block.x() <= last.x(); ++block.x()) {
+        const double least = nearest ? (*nearest - x).norm() : farthest;
+        if (const auto place = placeInBlock(block, x, onSurface, least)) nearest = place;
       }
     }
   }
@@ -166,50 +185,82 @@ std::optional<Vec3> OpeningProbe::placeAround(const Vec3& x, const Vec3& onSurfa
   return from;
 }
 
+/// The nearest one nearer than `least`.
+std::optional<Vec3> OpeningProbe::placeInBlock(const Eigen::Array3i& block, const Vec3& x,
+                                               const Vec3& onSurface, double least) {
+  const Vec3 low = surface_.lower() + kSide * spacing_ * block.matrix().cast<double>();
+  const Vec3 high = low + Vec3::Constant((kSide - 1) * spacing_);
+  const double tooNear = opening_.fits - nodeReach_; // for there to be a place next to a node
+  double within = least + nodeReach_;                // else another place is nearer
+  if ((x - x.cwiseMax(low).cwiseMin(high)).squaredNorm() > within * within) return {};
+  const std::shared_ptr<const NodePlaces> known = opening_.known->find(numberOf(block));
+  NodePlaces asked;
+  std::optional<Vec3> nearest;
+  for (std::size_t i = 0; i < asked.known.size(); ++i) {
+    const Vec3 node = low + spacing_ * stepTo(i);
+    if ((node - x).squaredNorm() > within * within) continue;
+    if ((node - onSurface).squaredNorm() < tooNear * tooNear) continue;
+    std::optional<Vec3> place;
+    if (known && known->known[i]) {
+      if (known->found[i]) place = known->of(i);
+    } else {
+      place = placeAtNode(node);
+      asked.add(i, place);
+    }
+    if (!place || (*place - x).norm() >= least) continue;
+    nearest = place;
+    least = (*place - x).norm();
+    within = least + nodeReach_;
+  }
+  if (asked.known.any()) opening_.known->add(numberOf(block), asked);
+  return nearest;
+}
+
 /// Depends on the node alone, and leaves no trace in the probe: so it does not matter which probe
 /// comes to it first.
-std::optional<Vec3> OpeningProbe::placeAtNode(const Eigen::Array3i& node) {
-  const Eigen::Array<std::int64_t, 3, 1> n = node.cast<std::int64_t>();
-  constexpr std::int64_t kAcross = std::int64_t{1} << 21; // more nodes than any grid has
-  const std::int64_t number = n.x() + kAcross * (n.y() + kAcross * n.z());
-  if (const auto found = opening_.known->find(number)) return *found;
-  const Vec3 x = surface_.lower() + spacing_ * node.matrix().cast<double>();
-  const double tooNear = opening_.fits - nodeReach_;
+std::optional<Vec3> OpeningProbe::placeAtNode(const Vec3& node) {
+  const double tooNear = opening_.fits - nodeReach_; // for there to be a place next to it
   const double slack = std::exchange(slack_, 0.0);
   const int face = std::exchange(nearestFace_, -1);
   std::optional<Vec3> place;
   // On either side of the surface; which one it is takes longer.
-  if (depthAt(x, true).value >= tooNear) {
-    const Sample depth = depthAt(x, false);
+  if (depthAt(node, true).value >= tooNear) {
+    const Sample depth = depthAt(node, false);
     if (depth.value >= opening_.fits) {
-      place = x;
+      place = node;
     } else if (depth.value >= tooNear) {
-      place = placeNear(x, depth, nodeReach_);
+      place = placeNear(node, depth, nodeReach_);
     }
   }
   slack_ = slack;
   nearestFace_ = face;
-  opening_.known->add(number, place);
   return place;
 }
 
-std::optional<std::optional<Vec3>> PlacesAtNodes::find(std::int64_t node) const {
-  const Part& part = parts_[partOf(node)];
+std::shared_ptr<const NodePlaces> KnownPlaces::find(std::int64_t block) const {
+  const Part& part = parts_[partOf(block)];
   const std::lock_guard lock(part.access);
-  const auto found = part.places.find(node);
-  if (found == part.places.end()) return std::nullopt;
-  return found->second;
+  const auto found = part.blocks.find(block);
+  return found == part.blocks.end() ? nullptr : found->second;
 }
 
-void PlacesAtNodes::add(std::int64_t node, const std::optional<Vec3>& place) {
-  Part& part = parts_[partOf(node)];
+void KnownPlaces::add(std::int64_t block, const NodePlaces& places) {
+  constexpr std::size_t kOfBlock = 5;
+  Part& part = parts_[partOf(block)];
   const std::lock_guard lock(part.access);
-  if (part.places.size() >= kMost) part.places.clear(); // those asked for next are near each other
-  part.places.emplace(node, place);
+  if (part.held >= kMost) { // those asked for next are near each other
+    part.blocks.clear();
+    part.held = 0;
+  }
+  std::shared_ptr<const NodePlaces>& known = part.blocks[block];
+  const std::size_t before = known ? known->places.size() : 0;
+  if (!known) part.held += kOfBlock;
+  known = std::make_shared<NodePlaces>(known ? joined(*known, places) : places);
+  part.held += known->places.size() - before;
 }
 
-std::size_t PlacesAtNodes::partOf(std::int64_t node) {
-  return static_cast<std::size_t>(node ^ node >> 21 ^ node >> 42) % kParts;
+std::size_t KnownPlaces::partOf(std::int64_t block) {
+  return static_cast<std::size_t>(block ^ block >> 20 ^ block >> 40) % kParts;
 }
 
 } // namespace massprops

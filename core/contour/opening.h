@@ -6,31 +6,53 @@
 #include "core/query/triangle_tree.h"
 
 #include <array>
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <unordered_map>
+#include <vector>
 
 namespace massprops {
 
-/// Places of the ball's middle next to nodes of a grid, by the nodes' numbers, that were asked for
-/// lately, by any thread.
-class PlacesAtNodes {
+/// Places of the ball's middle next to a block of 4×4×4 nodes of a grid.
+struct NodePlaces {
+  using Nodes = std::bitset<64>;
+
+  Nodes known;              ///< which were asked for
+  Nodes found;              ///< those with a place
+  std::vector<Vec3> places; ///< of those, by number
+
+  /// In rising order.
+  void add(std::size_t node, const std::optional<Vec3>& place) {
+    known.set(node);
+    if (!place) return;
+    found.set(node);
+    places.push_back(*place);
+  }
+
+  /// \pre the node has one
+  const Vec3& of(std::size_t node) const { return places[(found << (64 - node)).count()]; }
+};
+
+/// What is known of blocks by their numbers, as far as they were asked for lately, by any thread.
+class KnownPlaces {
 public:
-  /// Empty: it is not known; of an empty place: that there is none.
-  std::optional<std::optional<Vec3>> find(std::int64_t node) const;
-  void add(std::int64_t node, const std::optional<Vec3>& place);
+  std::shared_ptr<const NodePlaces> find(std::int64_t block) const;
+  /// Those that are not known yet, too.
+  void add(std::int64_t block, const NodePlaces& places);
 
 private:
   struct Part {
     mutable std::mutex access;
-    std::unordered_map<std::int64_t, std::optional<Vec3>> places;
+    std::unordered_map<std::int64_t, std::shared_ptr<const NodePlaces>> blocks;
+    std::size_t held = 0; ///< places, and a few for each block
   };
   static constexpr std::size_t kParts = 64;  // so that threads seldom wait
-  static constexpr std::size_t kMost = 1500; // in each: 6 MB in all
-  static std::size_t partOf(std::int64_t node);
+  static constexpr std::size_t kMost = 4000; // in each: 6 MB in all
+  static std::size_t partOf(std::int64_t block);
 
   std::array<Part, kParts> parts_;
 };
@@ -40,7 +62,7 @@ struct Opening {
   double fits;  ///< least depth behind the surface at which the ball's middle may be
   double reach; ///< what is farther than that from every such place is too narrow
   /// What probes of it know together.
-  std::shared_ptr<PlacesAtNodes> known = std::make_shared<PlacesAtNodes>();
+  std::shared_ptr<KnownPlaces> known = std::make_shared<KnownPlaces>();
 };
 
 /// Looks for the nearest place that the ball's middle may be at, of points one after the other; it
@@ -70,7 +92,9 @@ public:
 private:
   std::optional<Vec3> placeNear(const Vec3& x, const Sample& depth, double farthest);
   std::optional<Vec3> placeAround(const Vec3& x, const Vec3& onSurface, double farthest);
-  std::optional<Vec3> placeAtNode(const Eigen::Array3i& node);
+  std::optional<Vec3> placeInBlock(const Eigen::Array3i& block, const Vec3& x,
+                                   const Vec3& onSurface, double least);
+  std::optional<Vec3> placeAtNode(const Vec3& node);
 
   const TriangleTree& surface_;
   Opening opening_;

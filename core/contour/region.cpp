@@ -77,12 +77,22 @@ InsetProbe::InsetProbe(const Region& region, double slack)
 }
 
 Sample InsetProbe::at(const Vec3& x, double horizon, bool isInside) {
+  return filled(x, opened(x, behindWalls(x, horizon, isInside), horizon), horizon);
+}
+
+Sample InsetProbe::roughlyAt(const Vec3& x, double horizon, bool isInside) {
   Sample inset = behindWalls(x, horizon, isInside);
+  const bool fits = !opening_ || region_.wall + inset.value >= region_.opening->fits;
+  if (!fits) inset.value = std::min(inset.value, 0.0);
+  return filled(x, inset, horizon);
+}
+
+Sample InsetProbe::filled(const Vec3& x, const Sample& inset, double horizon) {
   if (region_.fill == nullptr || inset.value <= -horizon) return inset;
-  Sample filled = region_.fill->at(x);
-  if (filled.value >= inset.value) return inset;
+  Sample fill = region_.fill->at(x);
+  if (fill.value >= inset.value) return inset;
   isOfSurface_ = false;
-  return filled;
+  return fill;
 }
 
 Sample InsetProbe::behindWalls(const Vec3& x, double horizon, bool isInside) {
@@ -108,14 +118,21 @@ Sample InsetProbe::behindWalls(const Vec3& x, double horizon, bool isInside) {
   const TriangleTree::Hit clear = region_.surface.clearance(x, nearest_);
   const double distance = std::sqrt(clear.squaredDistance);
   const double sign = last_.isInside ? 1.0 : -1.0;
-  const double depth = sign * distance;
-  Sample inset{depth - region_.wall, sign * (x - clear.point) / std::max(distance, kTiny)};
+  const Sample inset{sign * distance - region_.wall,
+                     sign * (x - clear.point) / std::max(distance, kTiny)};
   isOfSurface_ = true;
+  isInDoubt_ = false;
+  return inset;
+}
+
+Sample InsetProbe::opened(const Vec3& x, const Sample& inset, double horizon) {
   if (!opening_ || inset.value <= -horizon) return inset;
-  const std::optional<Sample> opened = opening_->at(x, {depth, inset.slope}, inset.value, horizon);
-  if (opened && opened->value >= inset.value) return inset;
+  const Sample depth{region_.wall + inset.value, inset.slope};
+  const std::optional<Sample> value = opening_->at(x, depth, inset.value, horizon);
+  if (value && value->value >= inset.value) return inset;
   isOfSurface_ = false;
-  return opened ? *opened : Sample{std::min(inset.value, -horizon), inset.slope};
+  isInDoubt_ = !value;
+  return value ? *value : Sample{std::min(inset.value, -horizon), inset.slope};
 }
 
 } // namespace massprops

@@ -46,13 +46,22 @@ public:
   /// quicker.
   Sample at(const Vec3& x, double horizon, bool isInside = false);
 
+  /// As good for large cubes as `at`, and quicker: what the walls alone leave, yet nothing that is
+  /// positive where the ball does not fit.
+  Sample roughlyAt(const Vec3& x, double horizon, bool isInside);
+
   /// Whether the last one is the distance from the surface alone: from where it is positive the way
   /// against its slope, as long as the value, ends on the border.
   bool isOfSurface() const { return isOfSurface_; }
 
+  /// Whether the last one is −horizon for want of a place of the ball, which may yet be there where
+  /// the horizon is wide.
+  bool isInDoubt() const { return isInDoubt_; }
+
 private:
-  /// Without what carries ceilings.
   Sample behindWalls(const Vec3& x, double horizon, bool isInside);
+  Sample opened(const Vec3& x, const Sample& inset, double horizon);
+  Sample filled(const Vec3& x, const Sample& inset, double horizon);
 
   const Region& region_;
   double slack_;
@@ -60,6 +69,7 @@ private:
   std::optional<OpeningProbe> opening_;
   TriangleTree::Hit nearest_;
   bool isOfSurface_ = true;
+  bool isInDoubt_ = false;
   /// Around the last point; the surface does not come into it, so that all of it is on one side.
   struct Ball {
     Vec3 centre = Vec3::Zero();

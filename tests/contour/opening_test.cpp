@@ -1,6 +1,8 @@
 // Where a ball fits, against closed forms.
+#include "core/base/angles.h"
 #include "core/contour/cavity_contour.h"
 #include "core/contour/opening.h"
+#include "core/mesh/components.h"
 #include "core/mesh/signed_volume.h"
 #include "shapes.h"
 
@@ -172,6 +174,30 @@ TEST(CavityContour, OfAPlateHardlyWiderThanThreeWallsIsASheet) {
     const double volume = (size - Vec3::Constant(2.0 * wall)).prod();
     EXPECT_NEAR(signedVolume(mesh.vertices, mesh.faces), volume, 0.01 * volume) << room;
     EXPECT_LT(mesh.faces.rows(), 5000) << room; // of 30,000 before flat parts are thinned out
+  }
+}
+
+// There is room only where the rim of a pan meets its floor: from far away cutting planes find no
+// place there.
+TEST(CavityContour, OfAThinPanIsARing) {
+  const double wall = 0.014;
+  const double rim = 0.03;
+  const double floor = 0.04;
+  const TriangleMesh outer = revolved(
+      {{0, floor}, {0.49 - rim, floor}, {0.49 - rim, 0.15}, {0.49, 0.15}, {0.49, 0}, {0, 0}}, 100);
+  const TriangleTree tree(outer.vertices, outer.faces);
+  // Behind the walls where they meet, and beside that as far as the ball reaches at most.
+  const double length = 2.0 * kPi * (0.49 - 0.5 * rim);
+  const double least = length * (rim - 2.0 * wall) * (floor - 2.0 * wall);
+  const double most = least + length * 1.5 * wall * (rim + floor - 4.0 * wall);
+  for (const double edge : {0.3, 0.4, 0.53}) {
+    const auto cavity = cavityContour(openedSet(tree, wall, edge * wall), {});
+    ASSERT_TRUE(cavity);
+    const TriangleMesh& mesh = cavity->contour.mesh;
+    EXPECT_EQ(connectedComponents(mesh.vertices.rows(), mesh.faces).size(), 1) << edge;
+    const double volume = signedVolume(mesh.vertices, mesh.faces);
+    EXPECT_GT(volume, least) << edge;
+    EXPECT_LT(volume, most) << edge;
   }
 }
 
