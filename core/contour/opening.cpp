@@ -76,8 +76,7 @@ constexpr int kSide = 4; // nodes along a block's
 /// From a block's first node, in their distance.
 Vec3 stepTo(std::size_t node) {
   const auto i = static_cast<int>(node);
-  return {static_cast<double>(i % kSide), static_cast<double>(i / kSide % kSide),
-          static_cast<double>(i / (kSide * kSide))};
+  return Eigen::Vector3i(i % kSide, i / kSide % kSide, i / (kSide * kSide)).cast<double>();
 }
 
 std::int64_t numberOf(const Eigen::Array3i& block) {

@@ -118,8 +118,8 @@ Sample InsetProbe::behindWalls(const Vec3& x, double horizon, bool isInside) {
   const TriangleTree::Hit clear = region_.surface.clearance(x, nearest_);
   const double distance = std::sqrt(clear.squaredDistance);
   const double sign = last_.isInside ? 1.0 : -1.0;
-  const Sample inset{sign * distance - region_.wall,
-                     sign * (x - clear.point) / std::max(distance, kTiny)};
+  Sample inset{sign * distance - region_.wall,
+               sign * (x - clear.point) / std::max(distance, kTiny)};
   isOfSurface_ = true;
   isInDoubt_ = false;
   return inset;
