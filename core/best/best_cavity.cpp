@@ -396,7 +396,7 @@ CavityResult inFineCubes(const CavityTask& task, OpenedSet deliverable) {
   constexpr double kWanted = 0.01;
   // More take more than 60 MB, and so much time that only what is far from the limit is worth it.
   constexpr double kMany = 250000.0; // cubes
-  constexpr double kFar = 0.03;
+  constexpr double kFar = 0.0275;    // finishing may take some
   constexpr double kWantedOfMany = 0.02;
   // Askew rooms as wide as the ball slip through larger ones.
   constexpr double kResolves = 0.55; // of the ball
