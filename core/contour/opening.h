@@ -19,10 +19,8 @@ namespace massprops {
 
 /// Places of the ball's middle next to a block of 4×4×4 nodes of a grid.
 struct NodePlaces {
-  using Nodes = std::bitset<64>;
-
-  Nodes known;              ///< which were asked for
-  Nodes found;              ///< those with a place
+  std::bitset<64> known;    ///< nodes that were asked for, x first
+  std::bitset<64> found;    ///< those with a place
   std::vector<Vec3> places; ///< of those, by number
 
   /// In rising order.
@@ -40,8 +38,9 @@ struct NodePlaces {
 /// What is known of blocks by their numbers, as far as they were asked for lately, by any thread.
 class KnownPlaces {
 public:
+  /// Null: nothing is known of it.
   std::shared_ptr<const NodePlaces> find(std::int64_t block) const;
-  /// Those that are not known yet, too.
+  /// To what is known of it already.
   void add(std::int64_t block, const NodePlaces& places);
 
 private:

@@ -46,8 +46,8 @@ public:
   /// quicker.
   Sample at(const Vec3& x, double horizon, bool isInside = false);
 
-  /// As good for large cubes as `at`, and quicker: what the walls alone leave, yet nothing that is
-  /// positive where the ball does not fit.
+  /// At the middle of a large cube, whose half diagonal is the horizon, as good as `at`, and
+  /// quicker: what the walls alone leave, at most 0 where the ball does not fit.
   Sample roughlyAt(const Vec3& x, double horizon, bool isInside);
 
   /// Whether the last one is the distance from the surface alone: from where it is positive the way
