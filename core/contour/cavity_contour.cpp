@@ -33,12 +33,12 @@ Contour withoutLooseParts(const Contour& contour, double leastVolume) {
   return partOf(contour, std::move(part.mesh), part.vertexOf);
 }
 
-Contour thinnedOut(const Contour& contour, double distance) {
+Contour thinnedOut(Contour contour, double distance) {
   constexpr double kLeastAngle = 15.0;
   const Points& vertices = contour.mesh.vertices;
   DecimationTarget target{vertices.rows(), 0, distance, kLeastAngle};
   target.leastFactor = 1.0;
-  DecimatedMesh fewer = decimated(vertices, contour.mesh.faces, target);
+  DecimatedMesh fewer = decimated(vertices, std::move(contour.mesh.faces), target);
   return partOf(contour, std::move(fewer.mesh), fewer.vertexOf);
 }
 
@@ -106,7 +106,7 @@ Contour smoothed(const Region& region, double edge, Contour contour) {
     putBackCrossing(raw, contour);
   }
   removeSlivers(kSliver, contour);
-  contour = thinnedOut(contour, kFlat * region.wall);
+  contour = thinnedOut(std::move(contour), kFlat * region.wall);
   contour = withFewTriangles(region.wall, std::move(contour));
   removeSlivers(kSliver, contour);
   return contour;

@@ -31,7 +31,6 @@ constexpr Eigen::Index kWorthHalving = 16384;
 /// Squared distance from planes, weighted with their triangles' areas: xᵀAx + 2bᵀx + c. [GH97]
 struct Quadric {
   std::array<double, 10> q{}; ///< xx xy xz yy yz zz x y z 1
-  double area = 0.0;
 
   void addPlane(const Vec3& n, const Vec3& point, double weight) {
     const double d = -n.dot(point);
@@ -39,12 +38,12 @@ struct Quadric {
                               n.y() * n.z(), n.z() * n.z(), n.x() * d,     n.y() * d,
                               n.z() * d,     d * d};
     for (std::size_t i = 0; i < 10; ++i) q[i] += weight * terms[i];
-    area += weight;
   }
   void add(const Quadric& other) {
     for (std::size_t i = 0; i < 10; ++i) q[i] += other.q[i];
-    area += other.area;
   }
+  /// Of the triangles: the trace of A, for their normals are of length 1.
+  double area() const { return q[0] + q[3] + q[5]; }
   double at(const Vec3& x) const {
     return x.x() * (q[0] * x.x() + 2.0 * (q[1] * x.y() + q[2] * x.z() + q[6])) +
            x.y() * (q[3] * x.y() + 2.0 * (q[4] * x.z() + q[7])) +
@@ -55,27 +54,26 @@ struct Quadric {
 /// The surface while its edges collapse. Face f has the half-edges 3f, 3f+1, 3f+2.
 class QuadricDecimation {
 public:
-  QuadricDecimation(const Points& vertices, const Faces& faces, const DecimationTarget& target)
+  QuadricDecimation(const Points& vertices, Faces faces, const DecimationTarget& target)
       : x_(vertices), leastAngle_(target.leastAngle),
-        longestSquared_(target.longestEdge * target.longestEdge),
-        corner_(faces.data(), faces.data() + faces.size()),
-        opposite_(oppositeHalfEdges(vertices.rows(), faces)),
+        longestSquared_(target.longestEdge * target.longestEdge), faces_(std::move(faces)),
+        opposite_(oppositeHalfEdges(vertices.rows(), faces_)),
         outgoing_(static_cast<std::size_t>(vertices.rows()), -1),
         collapsedOnto_(static_cast<std::size_t>(vertices.rows())),
         quadrics_(static_cast<std::size_t>(vertices.rows())),
-        component_(componentNumbers(vertices.rows(), faces)) {
+        component_(componentNumbers(vertices.rows(), faces_)) {
     std::iota(collapsedOnto_.begin(), collapsedOnto_.end(), 0);
-    for (std::size_t h = 0; h < corner_.size(); ++h)
-      outgoing_[at(corner_[h])] = static_cast<int>(h);
+    for (int h = 0; h < static_cast<int>(faces_.size()); ++h) outgoing_[at(corner(h))] = h;
     Eigen::Index betweenHalves = 0;
-    for (Eigen::Index f = 0; f < faces.rows(); ++f) {
-      if (halfOf(faces(f, 0)) != halfOf(faces(f, 1)) || halfOf(faces(f, 1)) != halfOf(faces(f, 2)))
+    for (Eigen::Index f = 0; f < faces_.rows(); ++f) {
+      const auto corners = faces_.row(f);
+      if (halfOf(corners[0]) != halfOf(corners[1]) || halfOf(corners[1]) != halfOf(corners[2]))
         ++betweenHalves;
-      const Vec3 a = point(faces(f, 0));
-      const Vec3 normal = areaNormal(x_, faces, f);
+      const Vec3 a = point(corners[0]);
+      const Vec3 normal = areaNormal(x_, faces_, f);
       const double twiceArea = normal.norm();
       if (!(twiceArea > 0.0)) continue;
-      for (const int v : faces.row(f)) {
+      for (const int v : corners) {
         quadrics_[at(v)].addPlane(normal / twiceArea, a, twiceArea / 6.0);
       }
     }
@@ -89,7 +87,7 @@ public:
       ++half.sizes[at(component_[at(v)])];
     }
     constexpr Eigen::Index kFew = 20;
-    areHalvesApart_ = kFew * betweenHalves < faces.rows();
+    areHalvesApart_ = kFew * betweenHalves < faces_.rows();
   }
 
   void reduceTo(const DecimationTarget& target) {
@@ -104,7 +102,7 @@ public:
     // which is quicker than a queue, and each sweep thins the surface out evenly.
     const double totalArea =
         std::accumulate(quadrics_.begin(), quadrics_.end(), 0.0,
-                        [](double sum, const Quadric& q) { return sum + q.area; });
+                        [](double sum, const Quadric& q) { return sum + q.area(); });
     const double areaEach = totalArea / static_cast<double>(std::max<Eigen::Index>(size(), 1));
     double threshold = kLengthWeight * areaEach * areaEach;
     constexpr int kMostSweeps = 200;
@@ -146,13 +144,12 @@ public:
     for (std::size_t i = 0; i < result.vertexOf.size(); ++i) {
       result.mesh.vertices.row(static_cast<Eigen::Index>(i)) = x_.row(result.vertexOf[i]);
     }
-    const auto corners =
-        std::count_if(corner_.begin(), corner_.end(), [](int v) { return v >= 0; });
-    result.mesh.faces.resize(corners / 3, 3);
-    int* next = result.mesh.faces.data();
-    for (const int v : corner_) {
-      if (v >= 0) *next++ = number[at(v)];
+    int kept = 0;
+    for (int h = 0; h < static_cast<int>(faces_.size()); ++h) {
+      if (corner(h) >= 0) corner(kept++) = number[at(corner(h))];
     }
+    faces_.conservativeResize(kept / 3, 3);
+    result.mesh.faces = std::move(faces_);
     result.vertexFor = vertexFor(number);
     return result;
   }
@@ -171,7 +168,9 @@ private:
   int vertexCount() const { return static_cast<int>(outgoing_.size()); }
   std::size_t halfOf(int v) const { return v < vertexCount() / 2 ? 0 : 1; }
   Vec3 point(int v) const { return x_.row(v).transpose(); }
-  int to(int h) const { return corner_[at(nextHalfEdge(h))]; }
+  int corner(int h) const { return faces_.data()[h]; }
+  int& corner(int h) { return faces_.data()[h]; }
+  int to(int h) const { return corner(nextHalfEdge(h)); }
 
   /// The half-edges from v outwards, counter-clockwise.
   void collectFan(int v, std::vector<int>& fan) const {
@@ -211,8 +210,8 @@ private:
     for (const int h : half.fan) {
       const Vec3 target = point(to(h));
       const double cost =
-          own.at(target) + kLengthWeight * own.area * (target - point(v)).squaredNorm();
-      if (own.at(target) > mostSquared_ * own.area) continue;
+          own.at(target) + kLengthWeight * own.area() * (target - point(v)).squaredNorm();
+      if (own.at(target) > mostSquared_ * own.area()) continue;
       if (cost <= threshold) {
         half.candidates.emplace_back(cost, h);
       } else {
@@ -278,7 +277,7 @@ private:
 
   void collapse(int v, int h, const std::vector<int>& fan) {
     const int w = to(h);
-    for (const int g : fan) corner_[at(g)] = w;
+    for (const int g : fan) corner(g) = w;
     for (const int dead : {h, opposite_[at(h)]}) {
       // The face goes; the faces beyond its two other sides become neighbours.
       const int n = nextHalfEdge(dead);
@@ -289,9 +288,9 @@ private:
       opposite_[at(beyondP)] = beyondN;
       // p ends and n begins where the dead half-edge begins and ends; the third corner is p's
       // start.
-      outgoing_[at(corner_[at(p)])] = beyondN;
-      outgoing_[at(w)] = corner_[at(beyondN)] == w ? beyondN : beyondP;
-      for (const int e : {dead, n, p}) corner_[at(e)] = -1;
+      outgoing_[at(corner(p))] = beyondN;
+      outgoing_[at(w)] = corner(beyondN) == w ? beyondN : beyondP;
+      for (const int e : {dead, n, p}) corner(e) = -1;
     }
     outgoing_[at(v)] = -1;
     collapsedOnto_[at(v)] = w;
@@ -317,7 +316,8 @@ private:
 
   const Points& x_;
   double leastAngle_, longestSquared_;
-  std::vector<int> corner_, opposite_, outgoing_;
+  Faces faces_; ///< with corners -1 where they are gone
+  std::vector<int> opposite_, outgoing_;
   std::vector<int> collapsedOnto_; ///< a vertex onto itself while it is there
   std::vector<Quadric> quadrics_;
   std::vector<int> component_;
@@ -328,19 +328,21 @@ private:
 
 } // namespace
 
-DecimatedMesh decimated(const Points& vertices, const Faces& faces,
-                        const DecimationTarget& target) {
+DecimatedMesh decimated(const Points& vertices, Faces faces, const DecimationTarget& target) {
   const auto isWorthwhile = [&](Eigen::Index size) {
     return static_cast<double>(vertices.rows()) >= target.leastFactor * static_cast<double>(size);
   };
   if (isWorthwhile(target.least)) {
-    QuadricDecimation surface(vertices, faces, target);
+    const bool isAlwaysWorthwhile = target.leastFactor <= 1.0;
+    Faces whole = isAlwaysWorthwhile ? Faces() : faces;
+    QuadricDecimation surface(vertices, std::move(faces), target);
     surface.reduceTo(target);
     if (isWorthwhile(surface.size())) return std::move(surface).result();
+    faces = std::move(whole);
   }
   std::vector<int> itself(static_cast<std::size_t>(vertices.rows()));
   std::iota(itself.begin(), itself.end(), 0);
-  return {{vertices, faces}, itself, itself};
+  return {{vertices, std::move(faces)}, itself, itself};
 }
 
 } // namespace massprops

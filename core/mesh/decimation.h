@@ -35,6 +35,6 @@ struct DecimatedMesh {
 
 /// Collapses edges, those first that change the shape least [GH97] and are shortest.
 /// \pre closed manifold components
-DecimatedMesh decimated(const Points& vertices, const Faces& faces, const DecimationTarget& target);
+DecimatedMesh decimated(const Points& vertices, Faces faces, const DecimationTarget& target);
 
 } // namespace massprops
