@@ -15,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -294,16 +295,19 @@ Rough roughlyPolished(const CavityTask& task, double edge, const Contour& contou
   return servesBetter(task, moved.body, unmoved.body) ? std::move(moved) : std::move(unmoved);
 }
 
-/// In cubes of the set's edge. `farthest`: what may be left of what is possible for the cavity to
-/// be worth finishing.
-Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, double farthest) {
+/// Whether a cavity is worth finishing, by what it leaves of what is possible and its area.
+using IsEnough = std::function<bool(double gap, double area)>;
+
+/// In cubes of the set's edge.
+Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, const IsEnough& isEnough) {
   const LayeredQuadric& quadric = task.bound->worth;
   CavityResult rough;
   const auto isWorthIt = [&](const Contour& contour) {
-    if (!std::isfinite(farthest)) return true;
+    if (!isEnough) return true;
     Rough polished = roughlyPolished(task, deliverable.edge, contour);
     const bool isWorth =
-        polished.body.violation > kFeasibility || gapOf(task, polished.body) <= farthest;
+        polished.body.violation > kFeasibility ||
+        isEnough(gapOf(task, polished.body), surfaceArea(polished.inner, contour.mesh.faces));
     if (!isWorth) rough = resultOf(std::move(polished.inner), contour.mesh.faces, {});
     return isWorth;
   };
@@ -351,8 +355,6 @@ Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, double farth
   return {std::move(result), true};
 }
 
-constexpr double kAll = std::numeric_limits<double>::infinity();
-
 /// Whether the quadric leaves room on both sides.
 bool isCut(const CavityTask& task) {
   const Vec3 low = task.surface.lower();
@@ -389,36 +391,51 @@ double edgeThatWillDo(const CavityTask& task, const OpenedSet& deliverable) {
   return std::max(factor * deliverable.edge, kLeastEdge);
 }
 
+// More take more than 60 MB, and much time.
+constexpr double kManyCubes = 250000.0;
+
+/// How many cubes at most it is worth to have less left of what is possible than this.
+double cubesWorth(double gap, double leeway) {
+  constexpr double kLittle = 0.022;
+  constexpr double kFewCubes = 80000.0;
+  constexpr double kFar = 0.0275; // finishing may take some
+  if (gap <= leeway * kLittle) return kFewCubes;
+  return gap <= kFar ? kManyCubes : std::numeric_limits<double>::infinity();
+}
+
 /// In cubes as fine as it takes to lose little.
 CavityResult inFineCubes(const CavityTask& task, OpenedSet deliverable) {
-  constexpr std::array<double, 2> kEnough{0.018, 0.025};       // of what is possible is left
-  constexpr std::array<double, 2> kRoughEnough{0.018, 0.0275}; // before all is polished
+  const double more = leeway(task.surface);
+  const std::array<double, 2> enough{more * 0.018, more * 0.025};  // of what is possible is left
+  const std::array<double, 2> roughlyEnough{more * 0.018, 0.0275}; // before all is polished
   constexpr double kWanted = 0.01;
-  // More take more than 60 MB, and so much time that only what is far from the limit is worth it.
-  constexpr double kMany = 250000.0; // cubes
-  constexpr double kFar = 0.0275;    // finishing may take some
   constexpr double kWantedOfMany = 0.02;
   // Askew rooms as wide as the ball slip through larger ones.
   constexpr double kResolves = 0.55; // of the ball
-  const double more = leeway(task.surface);
   deliverable.edge = edgeThatWillDo(task, deliverable);
-  Made best = cavityOf(task, deliverable, more * kRoughEnough[0]);
+  const auto edgeFor = [&](double gap, double wanted) {
+    return deliverable.edge * std::clamp(std::sqrt(wanted / gap), 0.5, 0.8);
+  };
+  const auto isEnough = [&](double gap, double area, double limit) {
+    return gap <= limit || edgeOfCubes(area, cubesWorth(gap, more)) > edgeFor(gap, kWanted);
+  };
+  const auto isRoughlyEnough = [&](std::size_t i) {
+    return [&, i](double gap, double area) { return isEnough(gap, area, roughlyEnough[i]); };
+  };
+  Made best = cavityOf(task, deliverable, isRoughlyEnough(0));
   double edgeOfBest = deliverable.edge;
-  for (std::size_t i = 0; i < kEnough.size(); ++i) {
+  for (std::size_t i = 0; i < enough.size(); ++i) {
     const bool isNone = best.result.status == CavityStatus::NoRoom;
     const double gap = isNone ? gapOf(task, inputBody(task)) : gapOf(task, best.result);
-    if (gap <= more * kEnough[i] || (isNone && deliverable.edge <= kResolves * deliverable.ball))
-      break;
-    const auto edgeFor = [&](double wanted) {
-      return deliverable.edge * std::clamp(std::sqrt(wanted / gap), 0.5, 0.8);
-    };
     const double area = surfaceArea(best.result.inner, best.result.cavity.faces);
-    const bool areMany = edgeOfCubes(area, kMany) > edgeFor(kWanted);
-    if (areMany && gap <= kFar) break;
-    deliverable.edge = edgeFor(areMany ? kWantedOfMany : kWanted);
+    if (isEnough(gap, area, enough[i]) ||
+        (isNone && deliverable.edge <= kResolves * deliverable.ball))
+      break;
+    const bool areMany = edgeOfCubes(area, kManyCubes) > edgeFor(gap, kWanted);
+    deliverable.edge = edgeFor(gap, areMany ? kWantedOfMany : kWanted);
     if (deliverable.edge < kLeastEdge) break;
-    const bool isLast = i + 1 == kEnough.size();
-    Made finer = cavityOf(task, deliverable, isLast ? kAll : kRoughEnough[i + 1]);
+    const bool isLast = i + 1 == enough.size();
+    Made finer = cavityOf(task, deliverable, isLast ? IsEnough() : isRoughlyEnough(i + 1));
     finer.result.effort += best.result.effort;
     const bool isBetter = servesBetter(task, finer.result, best.result);
     best.result.effort = finer.result.effort;
@@ -428,7 +445,7 @@ CavityResult inFineCubes(const CavityTask& task, OpenedSet deliverable) {
   }
   if (best.isFinished) return std::move(best.result);
   deliverable.edge = edgeOfBest;
-  Made finished = cavityOf(task, deliverable, kAll);
+  Made finished = cavityOf(task, deliverable, {});
   finished.result.effort += best.result.effort;
   return std::move(finished.result);
 }
@@ -489,7 +506,7 @@ CavityResult bestPossibleCavity(const CavityTask& task, const OpenedSet& deliver
   std::optional<CavityResult> walled;
   if (!deliverable.fill) walled = uniformlyWalled(task, deliverable);
   CavityResult result = walled                     ? *std::move(walled)
-                        : cubes == Cubes::OfTheSet ? cavityOf(task, deliverable, kAll).result
+                        : cubes == Cubes::OfTheSet ? cavityOf(task, deliverable, {}).result
                                                    : inFineCubes(task, deliverable);
   if (result.status == CavityStatus::Found) result.outer = task.surface.vertices();
   result.effort.secondsOptimization = time.seconds() - result.effort.secondsInspection;
