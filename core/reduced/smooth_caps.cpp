@@ -16,6 +16,7 @@
 #include "core/reduced/hollow_body.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <memory>
@@ -93,20 +94,23 @@ TriangleMesh withOtherTriangles(const Points& vertices, const Faces& kept,
 
 /// Least volume of a component that is worth printing, in cubes of the wall.
 constexpr double kSpeck = 8.0;
-/// Of what the cavity gains over the solid body: so much a smooth end may cost.
-constexpr double kMostLoss = 0.02;
+/// Of many ends some always are faulty, and to try all again takes long.
+constexpr int kFewEnds = 8;
 
-/// Of the constraints; where the cavity cannot keep them, a little more than its own.
-double mostViolation(const CavityTask& task, const Body& found) {
+/// Of the constraints; where the cavity cannot keep them, more than its own by a share of its gain.
+double mostViolation(const CavityTask& task, const Body& found, double mostLoss) {
   if (found.violation <= kFeasibility) return kFeasibility;
   const double gain = inputBody(task).violation - found.violation;
-  return found.violation + kMostLoss * std::max(gain, 0.0);
+  return found.violation + mostLoss * std::max(gain, 0.0);
 }
 
 class Capping {
 public:
-  Capping(const CavityTask& task, const CavityResult& found);
+  /// `mostLoss`: of what the cavity gains over the solid body, that smooth ends may cost.
+  Capping(const CavityTask& task, const CavityResult& found, double mostLoss);
   CavityResult run();
+  bool hasFewEnds() const { return ends_.count <= kFewEnds; }
+  bool wasTooDear() const { return wasTooDear_; } ///< an end, for `mostLoss`
 
 private:
   End kindOf(int end) const;
@@ -144,7 +148,7 @@ private:
   const TriangleTree& outer() const { return moved_ ? *moved_ : task_.surface; }
   Capped opened() const;
   std::vector<Stretched> stretched(Capped capped) const;
-  std::optional<Inspected> inspected(const Capped& rough) const;
+  std::optional<Inspected> inspected(const Capped& rough);
   std::optional<Inspected> withBridgesClosed(const CavityResult& than);
   std::optional<Closed> closed(const Stretched& caps, const Pressing& pressing) const;
   void dropSpecks(double leastVolume, Capped& capped) const;
@@ -161,6 +165,7 @@ private:
 
   const CavityTask& task_;
   const CavityResult& found_;
+  double mostLoss_;
   const Faces& faces_;
   Eigen::Index n_;
   std::unique_ptr<const TriangleTree> moved_; ///< null: the outer surface rests
@@ -174,17 +179,18 @@ private:
   /// many kinds of smooth ends were given up.
   Marks isBridge_;
   std::vector<int> givenUp_;
+  bool wasTooDear_ = false;
 };
 
-Capping::Capping(const CavityTask& task, const CavityResult& found)
-    : task_(task), found_(found), faces_(task.model.surface->faces),
+Capping::Capping(const CavityTask& task, const CavityResult& found, double mostLoss)
+    : task_(task), found_(found), mostLoss_(mostLoss), faces_(task.model.surface->faces),
       n_(task.model.surface->vertices.rows()),
       moved_(task.model.outer ? std::make_unique<const TriangleTree>(
                                     found.outer, task.surface.faces(), TriangleTree::Order::Spatial)
                               : nullptr),
       movedGoal_(task.goalFor ? task.goalFor(found.outer) : nullptr),
       outerMass_(outerMoments(task, found)),
-      mostViolation_(mostViolation(task, hollowBody(task, found))),
+      mostViolation_(mostViolation(task, hollowBody(task, found), mostLoss)),
       neighbours_(vertexAdjacency(n_, faces_)), corners_(vertexCorners(n_, faces_)),
       ends_(cavityEnds(task, found, neighbours_)), isBridge_(bridges()),
       givenUp_(at(ends_.count), 0) {}
@@ -256,6 +262,7 @@ CavityResult Capping::run() {
     const Capped rough = opened();
     std::optional<Inspected> tried = inspected(rough);
     if (!tried) {
+      wasTooDear_ |= mostViolation_ > kFeasibility;
       if (!tryOtherwise()) break;
       continue;
     }
@@ -277,12 +284,10 @@ CavityResult Capping::run() {
 
 /// With smooth ends, of caps the first that are clean and worth it, of fans the best such, or else
 /// the first of all; empty: there are none.
-std::optional<Capping::Inspected> Capping::inspected(const Capped& rough) const {
+std::optional<Capping::Inspected> Capping::inspected(const Capped& rough) {
   constexpr Pressing kOfCaps[] = {{4.0, false}, {2.0, false}};
   constexpr Pressing kOfFans[] = {{0.125, false}, {2.0, true}}; // these keep their shape
-  // Of many ends some always are faulty, and to try all again takes long.
-  constexpr int kFew = 8;
-  if (!isClosed(rough.mesh)) return {}; // ends too close to each other
+  if (!isClosed(rough.mesh)) return {};                         // ends too close to each other
   std::optional<Inspected> first;
   std::optional<Inspected> best;
   const std::vector<Stretched> all = stretched(rough);
@@ -305,8 +310,9 @@ std::optional<Capping::Inspected> Capping::inspected(const Capped& rough) const 
       result.inspection = inspect(result.inner, result.cavity.faces, outer(), task_.wall, false,
                                   LookFirst::ForAll, found_.clearance.get(), task_.stored);
       const bool isGood = result.inspection.isClean() && isWorthIt(result);
+      wasTooDear_ |= result.inspection.isClean() && !isGood;
       Inspected tried{std::move(result), isGood};
-      if ((isGood && !isAnyFaired) || ends_.count > kFew) return tried;
+      if ((isGood && !isAnyFaired) || !hasFewEnds()) return tried;
       if (isGood && (!best || servesBetter(task_, tried.result, best->result))) {
         best = std::move(tried);
       } else if (!first) {
@@ -511,12 +517,12 @@ bool Capping::keepsVolume(const CavityResult& result) const {
 Capping::Loss Capping::lossOf(const Body& before, const Body& after) const {
   const Body solid = inputBody(task_);
   if (before.measure && after.measure && solid.measure) {
-    const double most = kMostLoss * std::abs(*before.measure - *solid.measure);
+    const double most = mostLoss_ * std::abs(*before.measure - *solid.measure);
     const double beyond = *before.measure - task_.goal.wantedLevel();
     return {*before.measure - *after.measure, beyond >= 0.0 ? std::min(most, beyond) : most};
   }
   return {after.objective - before.objective,
-          kMostLoss * std::abs(solid.objective - before.objective)};
+          mostLoss_ * std::abs(solid.objective - before.objective)};
 }
 
 bool Capping::isWorthIt(const CavityResult& result) const {
@@ -602,7 +608,17 @@ bool Capping::giveUp(const CavityResult& result, const std::vector<int>& end) {
 CavityResult withSmoothCaps(const CavityTask& task, const CavityResult& found) {
   if (found.status != CavityStatus::Found || task.open != nullptr || found.cavity.faces.rows() == 0)
     return found;
-  return Capping(task, found).run();
+  // What costs more is made only where nothing else does.
+  constexpr std::array<double, 3> kMostLoss{0.02, 0.05, 0.1};
+  CavityResult best;
+  for (const double mostLoss : kMostLoss) {
+    Capping capping(task, found, mostLoss);
+    CavityResult result = capping.run();
+    if (mostLoss == kMostLoss.front() || result.roughEnds < best.roughEnds)
+      best = std::move(result);
+    if (best.roughEnds == 0 || !capping.wasTooDear() || !capping.hasFewEnds()) break;
+  }
+  return best;
 }
 
 } // namespace massprops
