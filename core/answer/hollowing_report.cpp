@@ -2,6 +2,7 @@
 
 #include "core/base/tolerances.h"
 #include "core/base/triangle.h"
+#include "core/goals/objective.h"
 #include "core/goals/registry.h"
 #include "core/reduced/hollow_body.h"
 
@@ -39,6 +40,19 @@ MassProperties inModel(const Moments& massMoments, const Frame& frame, double de
   return body;
 }
 
+/// In its states the body that comes nearest to a goal out of reach, of all that are known: that of
+/// the best level need not where constraints count that are not linear.
+std::vector<Moments> nearestToGoal(const CavityTask& task) {
+  const OptimalBound& bound = *task.bound;
+  const LevelBound* level = bound.bestLevel();
+  if (level != nullptr && measure(task.goal, level->states)) return level->states;
+  const bool isWithinSet = bound.violation < bound.violationInAll;
+  const double violation = isWithinSet ? bound.violation : bound.violationInAll;
+  if (level != nullptr && largestViolation(task.goal, level->states) <= violation)
+    return level->states;
+  return {isWithinSet ? bound.massMoments : bound.massMomentsInAll};
+}
+
 /// What a cavity of any shape could do about a goal that is missed.
 std::string outlook(const CavityTask& task, const Verdict& verdict, bool isProved) {
   if (!task.bound) return "";
@@ -56,12 +70,9 @@ std::string outlook(const CavityTask& task, const Verdict& verdict, bool isProve
                ? " A cavity with channels narrower than the wall could reach it."
                : " No cavity of any other shape was found to reach it.";
   }
-  const LevelBound* best = task.bound->bestLevel();
   return " No cavity of any shape that " + keeps +
          (isProved ? " can reach it: " : " was found to reach it: ") +
-         verdict.bestInWords(best != nullptr ? best->states
-                                             : std::vector<Moments>{task.bound->massMomentsInAll}) +
-         ".";
+         verdict.bestInWords(nearestToGoal(task)) + ".";
 }
 
 /// With the holes open; the mass moments that the verdict sees are those with the plugs in.
@@ -305,10 +316,10 @@ void addLimit(const CavityTask& task, const Verdicts& verdicts, const Body& befo
   report.add("gap_to_limit", gapToBound(bound, before, after));
   verdicts.before.describe(bound.massMoments, "limit", report);
   if (bound.measure) verdicts.before.describeWorst(*bound.measure, "limit", report);
-  const LevelBound* best = bound.bestLevel();
-  if (best == nullptr || bound.isReachable()) return;
-  verdicts.before.describe(best->states.front(), "best", report);
-  const std::optional<double> worst = measure(task.goal, best->states);
+  if (bound.bestLevel() == nullptr || bound.isReachable()) return;
+  const std::vector<Moments> best = nearestToGoal(task);
+  verdicts.before.describe(best.front(), "best", report);
+  const std::optional<double> worst = measure(task.goal, best);
   if (worst) verdicts.before.describeWorst(*worst, "best", report);
 }
 
