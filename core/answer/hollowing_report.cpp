@@ -41,20 +41,26 @@ MassProperties inModel(const Moments& massMoments, const Frame& frame, double de
 }
 
 /// In its states the body that comes nearest to a goal out of reach, of all that are known: that of
-/// the best level need not where constraints count that are not linear.
-std::vector<Moments> nearestToGoal(const CavityTask& task) {
+/// the best level need not where constraints count that are not linear. Empty: it is the delivered
+/// one.
+std::vector<Moments> nearerToGoal(const CavityTask& task, const Verdict& verdict,
+                                  const Body& delivered) {
   const OptimalBound& bound = *task.bound;
   const LevelBound* level = bound.bestLevel();
   if (level != nullptr && measure(task.goal, level->states)) return level->states;
-  const bool isWithinSet = bound.violation < bound.violationInAll;
-  const double violation = isWithinSet ? bound.violation : bound.violationInAll;
-  if (level != nullptr && largestViolation(task.goal, level->states) <= violation)
-    return level->states;
-  return {isWithinSet ? bound.massMoments : bound.massMomentsInAll};
+  std::vector<std::vector<Moments>> bodies{{bound.massMomentsInAll}, {bound.massMoments}};
+  if (level != nullptr) bodies.push_back(level->states);
+  const auto isNearer = [&](const std::vector<Moments>& a, const std::vector<Moments>& b) {
+    return verdict.violation(a.front()) < verdict.violation(b.front());
+  };
+  std::vector<Moments> nearest = *std::min_element(bodies.begin(), bodies.end(), isNearer);
+  if (!isNearer(nearest, {delivered.mass})) return {};
+  return nearest;
 }
 
 /// What a cavity of any shape could do about a goal that is missed.
-std::string outlook(const CavityTask& task, const Verdict& verdict, bool isProved) {
+std::string outlook(const CavityTask& task, const Verdict& verdict, const Body& delivered,
+                    bool isProved) {
   if (!task.bound) return "";
   if (task.bound->outOfReach && isProved) {
     return " No cavity of any shape that keeps this wall can reach it.";
@@ -70,9 +76,12 @@ std::string outlook(const CavityTask& task, const Verdict& verdict, bool isProve
                ? " A cavity with channels narrower than the wall could reach it."
                : " No cavity of any other shape was found to reach it.";
   }
-  return " No cavity of any shape that " + keeps +
-         (isProved ? " can reach it: " : " was found to reach it: ") +
-         verdict.bestInWords(nearestToGoal(task)) + ".";
+  const std::string none = " No cavity of any shape that " + keeps +
+                           (isProved ? " can reach it" : " was found to reach it");
+  const std::vector<Moments> best = nearerToGoal(task, verdict, delivered);
+  if (best.empty())
+    return none + (isProved ? ", and none was found to come nearer." : " or to come nearer.");
+  return none + ": " + verdict.bestInWords(best) + ".";
 }
 
 /// With the holes open; the mass moments that the verdict sees are those with the plugs in.
@@ -205,7 +214,7 @@ std::string message(const CavityTask& task, const Verdicts& verdicts, const Cavi
   }
   if (cavity.status == CavityStatus::NoGain) {
     return sentence + bySolid + ", and no cavity with this wall was found to serve it better." +
-           (isReached ? "" : outlook(task, verdicts.before, isProved));
+           (isReached ? "" : outlook(task, verdicts.before, after, isProved));
   }
   if (verdicts.before.isReached(before.mass)) sentence += " (by the solid model too)";
   if (cavity.inspection.components == 0) {
@@ -213,7 +222,7 @@ std::string message(const CavityTask& task, const Verdicts& verdicts, const Cavi
   }
   if (isSolved) return sentence + "; all constraints hold.";
   return sentence + notExactly + ": with the best cavity found " + missed + "." +
-         (isReached ? "" : outlook(task, verdicts.before, isProved));
+         (isReached ? "" : outlook(task, verdicts.before, after, isProved));
 }
 
 bool carriesItself(const PosedModel& posed, const Stages& stages) {
@@ -317,7 +326,8 @@ void addLimit(const CavityTask& task, const Verdicts& verdicts, const Body& befo
   verdicts.before.describe(bound.massMoments, "limit", report);
   if (bound.measure) verdicts.before.describeWorst(*bound.measure, "limit", report);
   if (bound.bestLevel() == nullptr || bound.isReachable()) return;
-  const std::vector<Moments> best = nearestToGoal(task);
+  std::vector<Moments> best = nearerToGoal(task, verdicts.before, after);
+  if (best.empty()) best = {after.mass};
   verdicts.before.describe(best.front(), "best", report);
   const std::optional<double> worst = measure(task.goal, best);
   if (worst) verdicts.before.describeWorst(*worst, "best", report);

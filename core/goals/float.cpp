@@ -194,7 +194,7 @@ public:
   std::string worstViolation(const Moments& massMoments) const override {
     const MassProperties body = massProperties(massMoments);
     const Vector equalities = goal_.equalities(massMoments).values;
-    const double aside = equalities.tail<2>().cwiseAbs().maxCoeff();
+    const double aside = equalities.tail<2>().norm();
     const double unstable = goal_.inequalities(massMoments).values[0];
     if (std::abs(equalities[0]) >= std::max(aside, unstable)) {
       const double excess = body.mass / (waterDensity_ * wished_.displaced) - 1.0;
@@ -202,10 +202,16 @@ public:
              (excess > 0.0 ? "heavy" : "light") + " for this waterline";
     }
     return aside >= unstable
-               ? "the centre of mass lies " + toString(equalities.tail<2>().norm() * lengthUnit_) +
+               ? "the centre of mass lies " + toString(aside * lengthUnit_) +
                      " off the vertical through the centre of buoyancy"
                : "the metacentric height is " +
                      toString((wished_.metacentre - body.centerOfMass.z()) * lengthUnit_) + " only";
+  }
+
+  double violation(const Moments& massMoments) const override {
+    const Vector equalities = goal_.equalities(massMoments).values;
+    return std::max({std::abs(equalities[0]), equalities.tail<2>().norm(),
+                     goal_.inequalities(massMoments).values[0]});
   }
 
   std::string whatIsMissed(const Moments& massMoments) const override {

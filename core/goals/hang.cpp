@@ -73,11 +73,16 @@ public:
   std::string worstViolation(const Moments& massMoments) const override {
     const Vec3 c = belowPoint(massMoments);
     const double tooHigh = c.z() + kLeastDepth;
-    return tooHigh > c.head<2>().cwiseAbs().maxCoeff()
+    return tooHigh > c.head<2>().norm()
                ? "the centre of mass lies " + toString(tooHigh * lengthUnit_) +
                      " too high under the suspension point"
                : "the centre of mass lies " + toString(c.head<2>().norm() * lengthUnit_) +
                      " off the plumb line of the suspension point";
+  }
+
+  double violation(const Moments& massMoments) const override {
+    const Vec3 c = belowPoint(massMoments);
+    return std::max(c.z() + kLeastDepth, c.head<2>().norm());
   }
 
   void describe(const Moments& massMoments, const std::string& suffix,

@@ -71,6 +71,10 @@ public:
            (excess > 0.0 ? "large" : "small");
   }
 
+  double violation(const Moments& massMoments) const override {
+    return target_ ? std::abs(massMoments[0] - *target_) : 0.0;
+  }
+
   void describe(const Moments& massMoments, const std::string& suffix,
                 Report& report) const override {
     if (!target_) return;

@@ -96,12 +96,17 @@ public:
   std::string worstViolation(const Moments& massMoments) const override {
     const Vector values = goal_.equalities(massMoments).values;
     const Vector beyond = goal_.inequalities(massMoments).values;
-    if (beyond.maxCoeff() <= values.cwiseAbs().maxCoeff()) {
+    if (beyond.maxCoeff() <= axisViolation(values)) {
       return axisViolation(values, lengthUnit_);
     }
     return beyond[1] > beyond[0] ? middleMoment(massMoments)
                                  : "the centre of mass lies " + toString(beyond[0] * lengthUnit_) +
                                        " below the end of the axis on the ground";
+  }
+
+  double violation(const Moments& massMoments) const override {
+    return std::max(axisViolation(goal_.equalities(massMoments).values),
+                    goal_.inequalities(massMoments).values.maxCoeff());
   }
 
   std::string whatIsMissed(const Moments& massMoments) const override {

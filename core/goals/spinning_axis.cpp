@@ -132,13 +132,16 @@ SpinningAxis spinningAxis(const Moments& massMoments, const Vec2& axis) {
           axial / horizontal[1], axial / horizontal[0]};
 }
 
+double axisViolation(const Eigen::Vector4d& axisConstraints) {
+  return std::max(axisConstraints.head<2>().norm(), axisConstraints.tail<2>().norm());
+}
+
 std::string axisViolation(const Eigen::Vector4d& axisConstraints, double lengthUnit) {
-  const Vec2 offset = axisConstraints.head<2>();
-  const Vec2 products = axisConstraints.tail<2>();
-  return offset.cwiseAbs().maxCoeff() >= products.cwiseAbs().maxCoeff()
-             ? offAxis(offset.norm() * lengthUnit)
-             : "the products of inertia I_xz, I_yz reach " + toString(products.norm()) +
-                   " of the solid's I_zz";
+  const double offset = axisConstraints.head<2>().norm();
+  const double products = axisConstraints.tail<2>().norm();
+  return offset >= products ? offAxis(offset * lengthUnit)
+                            : "the products of inertia I_xz, I_yz reach " + toString(products) +
+                                  " of the solid's I_zz";
 }
 
 std::string offAxis(double distance) {

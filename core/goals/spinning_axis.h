@@ -57,7 +57,11 @@ struct SpinningAxis {
 
 SpinningAxis spinningAxis(const Moments& massMoments, const Vec2& axis);
 
-/// The greater violation in words: of the centre's offset and of the products of inertia.
+/// The greater one of the four `axisConstraints`: the centre's offset, or the length of the two
+/// products of inertia.
+double axisViolation(const Eigen::Vector4d& axisConstraints);
+
+/// The same in words.
 std::string axisViolation(const Eigen::Vector4d& axisConstraints, double lengthUnit);
 
 /// `distance`: in the model's units.

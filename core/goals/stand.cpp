@@ -121,6 +121,10 @@ public:
            " outside of the contact area";
   }
 
+  double violation(const Moments& massMoments) const override {
+    return wantedAngle_ - tippingAngleOf(area_, massMoments);
+  }
+
   std::string whatIsMissed(const Moments& massMoments) const override {
     return worstViolation(massMoments);
   }

@@ -2,6 +2,10 @@
 
 namespace massprops {
 
+double Verdict::violation(const Moments& /*massMoments*/) const {
+  return 0.0;
+}
+
 std::string Verdict::whatIsMissed(const Moments& massMoments) const {
   return worstViolation(massMoments);
 }
@@ -19,7 +23,7 @@ std::optional<double> Verdict::worstMeasure(const Moments& /*massMoments*/) cons
 
 std::string Verdict::bestInWords(const std::vector<Moments>& states) const {
   // Where several constraints are missed, none of them need be at its least there.
-  return "with the one that comes nearest " + worstViolation(states.front());
+  return "with the nearest one found " + worstViolation(states.front());
 }
 
 std::string Verdict::draw(const Moments& /*before*/, const Moments& /*after*/,

@@ -22,6 +22,9 @@ public:
   /// The constraint that is violated most, as a clause and in the model's units; of use only when
   /// `largestViolation` of the goal is not 0.
   virtual std::string worstViolation(const Moments& massMoments) const = 0;
+  /// How much that constraint is violated, 0 where the goal has none: compares bodies, in a unit of
+  /// its own. Two across an axis are violated by one length.
+  virtual double violation(const Moments& massMoments) const;
   /// What of the verdict is missed, as a clause, by a body that keeps all constraints; of use only
   /// when that is not `isReached`. Where the constraints are all that the verdict asks for, it is
   /// `worstViolation`.

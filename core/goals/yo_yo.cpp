@@ -74,13 +74,18 @@ public:
     const Eigen::Vector4d axis = goal_.equalities(massMoments).values.head<4>();
     const double along = std::abs(offMiddle(massMoments));
     const double between = goal_.inequalities(massMoments).values[0];
-    if (between > std::max(along, axis.cwiseAbs().maxCoeff())) {
+    if (between > std::max(along, axisViolation(axis))) {
       return middleMoment(spinningAxis(massMoments, pivot_.head<2>()));
     }
-    return along < axis.cwiseAbs().maxCoeff()
+    return along < axisViolation(axis)
                ? axisViolation(axis, lengthUnit_)
                : "the centre of mass lies " + toString(along * lengthUnit_) +
                      " off the middle of the axle";
+  }
+
+  double violation(const Moments& massMoments) const override {
+    return std::max({axisViolation(goal_.equalities(massMoments).values.head<4>()),
+                     std::abs(offMiddle(massMoments)), goal_.inequalities(massMoments).values[0]});
   }
 
   std::string whatIsMissed(const Moments& massMoments) const override {
