@@ -302,15 +302,19 @@ using IsEnough = std::function<bool(double gap, double area)>;
 Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, const IsEnough& isEnough) {
   const LayeredQuadric& quadric = task.bound->worth;
   CavityResult rough;
-  const auto isWorthIt = [&](const Contour& contour) {
-    if (!isEnough) return true;
-    Rough polished = roughlyPolished(task, deliverable.edge, contour);
-    const bool isWorth =
-        polished.body.violation > kFeasibility ||
-        isEnough(gapOf(task, polished.body), surfaceArea(polished.inner, contour.mesh.faces));
-    if (!isWorth) rough = resultOf(std::move(polished.inner), contour.mesh.faces, {});
-    return isWorth;
+  ContourUse use;
+  use.loss = [&](const Contour& contour) {
+    return gapOf(task, roughlyPolished(task, deliverable.edge, contour).body);
   };
+  if (isEnough)
+    use.isWorthIt = [&](const Contour& contour) {
+      Rough polished = roughlyPolished(task, deliverable.edge, contour);
+      const bool isWorth =
+          polished.body.violation > kFeasibility ||
+          isEnough(gapOf(task, polished.body), surfaceArea(polished.inner, contour.mesh.faces));
+      if (!isWorth) rough = resultOf(std::move(polished.inner), contour.mesh.faces, {});
+      return isWorth;
+    };
   const double roomy = wallBeforeRounding(task);
   double wall = task.wall;
   CavityResult result;
@@ -319,7 +323,7 @@ Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, const IsEnou
   for (int round = 1; round <= kRounds; ++round) {
     if (deliverable.wall < roomy || round > 1) wall += roomy - task.wall;
     const OpenedSet set = wall <= deliverable.wall ? deliverable : withWall(deliverable, wall);
-    std::optional<CavityContour> found = cavityContour(set, quadric, isWorthIt, crossing);
+    std::optional<CavityContour> found = cavityContour(set, quadric, use, crossing);
     if (!found || found->contour.mesh.faces.rows() == 0) {
       result = {};
       // Where there is room the limit's body is the solid one.
@@ -375,11 +379,13 @@ double edgeThatWillDo(const CavityTask& task, const OpenedSet& deliverable) {
   OpenedSet coarse = deliverable;
   coarse.edge *= kLarger;
   double gap = 0.0;
-  cavityContour(coarse, task.bound->worth, [&](const Contour& contour) {
+  ContourUse use;
+  use.isWorthIt = [&](const Contour& contour) {
     const Body body = roughlyPolished(task, coarse.edge, contour).body;
     if (body.violation <= kFeasibility) gap = gapOf(task, body);
     return false;
-  });
+  };
+  cavityContour(coarse, task.bound->worth, use);
   if (gap <= 0.0) return deliverable.edge;
   // In steps: the last digits of the gap depend on where the model lies.
   constexpr double kSteps = 4.0;                                        // that double the edge

@@ -45,9 +45,9 @@ Contour thinnedOut(Contour contour, double distance) {
 constexpr double kFlat = 0.002; // walls
 
 /// No more triangles than are wanted, or as few as cost next to nothing.
-Contour withFewTriangles(double wall, Contour contour) {
+Contour withFewTriangles(double wall, const ContourUse& use, Contour contour) {
   constexpr double kCheap = 0.003; // of the volume
-  constexpr double kMost = 0.01;
+  constexpr double kMost = 0.01;   // of the volume, and of what is possible
   constexpr double kStep = 1.5;
   constexpr int kSteps = 6;
   if (contour.mesh.faces.rows() <= kEnoughTriangles) return contour;
@@ -56,6 +56,7 @@ Contour withFewTriangles(double wall, Contour contour) {
   };
   const double volume = volumeOf(contour);
   const double area = surfaceArea(contour.mesh.vertices, contour.mesh.faces);
+  const double loss = use.loss ? use.loss(contour) : 0.0;
   double share = kFlat;
   for (int step = 0; step < kSteps && contour.mesh.faces.rows() > kEnoughTriangles; ++step) {
     share *= kStep;
@@ -63,6 +64,7 @@ Contour withFewTriangles(double wall, Contour contour) {
     if (share * wall * area > kMost * volume) break;
     Contour fewer = thinnedOut(contour, share * wall);
     if (std::abs(volumeOf(fewer) - volume) > kCheap * volume) break;
+    if (use.loss && use.loss(fewer) > loss + kMost) break;
     contour = std::move(fewer);
   }
   return contour;
@@ -99,7 +101,7 @@ void putBackCrossing(const Points& before, Contour& contour) {
 
 /// Few triangles, none of them a sliver, on the border but for vertices that would have to cross
 /// something on their way there.
-Contour smoothed(const Region& region, double edge, Contour contour) {
+Contour smoothed(const Region& region, double edge, const ContourUse& use, Contour contour) {
   {
     const Points raw = contour.mesh.vertices;
     project(region, edge, contour);
@@ -107,7 +109,7 @@ Contour smoothed(const Region& region, double edge, Contour contour) {
   }
   removeSlivers(kSliver, contour);
   contour = thinnedOut(std::move(contour), kFlat * region.wall);
-  contour = withFewTriangles(region.wall, std::move(contour));
+  contour = withFewTriangles(region.wall, use, std::move(contour));
   removeSlivers(kSliver, contour);
   return contour;
 }
@@ -194,8 +196,7 @@ Troubles troublesLeft(ClearanceQuery& clearance, double wall, Contour& contour) 
 
 std::optional<CavityContour> cavityContour(const OpenedSet& set,
                                            const std::optional<LayeredQuadric>& quadric,
-                                           const std::function<bool(const Contour&)>& isWorthIt,
-                                           const std::vector<Vec3>& solid) {
+                                           const ContourUse& use, const std::vector<Vec3>& solid) {
   ClearanceQuery fresh(set.surface);
   const double leastVolume = std::pow(set.ball, 3);
   // Vertices on the border shall not count as too near for their last digits.
@@ -217,10 +218,10 @@ std::optional<CavityContour> cavityContour(const OpenedSet& set,
     if (lattice->corners.size() > kLarge) lattice.reset();
     raw = withoutLooseParts(raw, leastVolume);
     if (raw.mesh.faces.rows() == 0) return CavityContour{{}, set.edge, fresh};
-    Contour contour = smoothed(region, set.edge, std::move(raw));
+    Contour contour = smoothed(region, set.edge, use, std::move(raw));
     ClearanceQuery clearance(set.surface);
     keepWallNearly(clearance, set.wall, contour.mesh.faces, contour.mesh.vertices);
-    if (isWorthIt && !isWorthIt(contour))
+    if (use.isWorthIt && !use.isWorthIt(contour))
       return CavityContour{std::move(contour), set.edge, std::move(clearance), false};
     const Troubles troubles = troublesLeft(clearance, set.wall, contour);
     if (troubles.areNone())

@@ -105,6 +105,26 @@ TEST(CavityContour, HasNoMoreTrianglesThanAnybodyWantsWhereTheyCostLittle) {
   EXPECT_NEAR(moments(mesh.vertices, mesh.faces)[0], volume, 5e-3 * volume);
 }
 
+TEST(CavityContour, HasMoreTrianglesWhereTheyAreWorthIt) {
+  const TriangleMesh outer = sphere(60);
+  const TriangleTree tree(outer.vertices, outer.faces);
+  constexpr double kWall = 0.02;
+  const double area = surfaceArea(outer.vertices, outer.faces);
+  const OpenedSet set = openedSet(tree, kWall, edgeOfCubes(area, 150000));
+  const double whole = moments(outer.vertices, outer.faces)[0] * std::pow(1.0 - kWall, 3);
+  // So small a gain is lost with a thousandth of the volume.
+  ContourUse use;
+  use.loss = [&](const Contour& contour) {
+    return 1000.0 * (1.0 - moments(contour.mesh.vertices, contour.mesh.faces)[0] / whole);
+  };
+  const auto few = cavityContour(set, {});
+  const auto cavity = cavityContour(set, {}, use);
+  ASSERT_TRUE(few && cavity);
+  expectCavity(tree, kWall, cavity->contour.mesh);
+  EXPECT_GT(cavity->contour.mesh.faces.rows(), few->contour.mesh.faces.rows());
+  EXPECT_LT(use.loss(cavity->contour), use.loss(few->contour));
+}
+
 TEST(CavityContour, LeavesOutChannelsNarrowerThanAWall) {
   // Two rooms with a passage between them that is 0.6 walls wide, and one of 1.6 walls.
   const double wall = 0.1;
