@@ -66,7 +66,8 @@ Faces openEdges(const TriangleMesh& mesh, const TriangleTree& surface, double be
 
 /// A ball with this radius gets through no hole whose border hangs together, as far as holes are
 /// flat.
-double radiusOfHoles(const TriangleMesh& mesh, const TriangleTree& surface, double beyond) {
+double radiusOfHoles(const TriangleMesh& mesh, double beyond) {
+  const TriangleTree surface(mesh.vertices, mesh.faces);
   const Faces open = openEdges(mesh, surface, beyond);
   double radius = 0.0;
   for (const Submesh& border : componentMeshes(mesh.vertices, open)) {
@@ -84,6 +85,8 @@ double radiusOfHoles(const TriangleMesh& mesh, const TriangleTree& surface, doub
 std::optional<TriangleMesh> wrapOf(const TriangleMesh& mesh, double ball, double offset) {
   std::vector<SurfaceKernel::Point_3> points;
   std::vector<std::array<std::size_t, 3>> triangles;
+  points.reserve(static_cast<std::size_t>(mesh.vertices.rows()));
+  triangles.reserve(static_cast<std::size_t>(mesh.faces.rows()));
   for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
     points.emplace_back(mesh.vertices(v, 0), mesh.vertices(v, 1), mesh.vertices(v, 2));
   }
@@ -157,14 +160,13 @@ MendedMesh wrappedKeeping(double kept, const TriangleMesh& input, const MendingT
   if (input.faces.rows() == 0) return {input};
   const double diagonal = diagonalOf(input.vertices);
   const double offset = std::min(0.25 * task.wall, diagonal / 400.0);
-  const TriangleTree surface(input.vertices, input.faces);
   const double volume = windingVolumes(input, {}).volume;
   constexpr double kNothing = 1e-4;
   if (!(volume > kNothing * std::pow(diagonal, 3))) return {input};
 
   // A ball that fits through a hole leaves the hollow inside.
   constexpr double kLarger = 1.5;
-  const double holes = radiusOfHoles(input, surface, 0.5 * kFinestBall * diagonal);
+  const double holes = radiusOfHoles(input, 0.5 * kFinestBall * diagonal);
   std::optional<TriangleMesh> wrap;
   for (double ball = std::clamp(holes, kFinestBall * diagonal, kCoarsestBall * diagonal);
        !wrap && ball <= kCoarsestBall * diagonal; ball *= kLarger) {
@@ -172,6 +174,8 @@ MendedMesh wrappedKeeping(double kept, const TriangleMesh& input, const MendingT
     if (wrap && signedVolume(wrap->vertices, wrap->faces) < kept * volume) wrap.reset();
   }
   if (!wrap) return {input};
+  // While the wrap was made the memory was wanted.
+  const TriangleTree surface(input.vertices, input.faces);
   wrap = tightened(*wrap, surface, offset, task);
   if (!wrap) return {input};
 
