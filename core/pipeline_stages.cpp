@@ -303,14 +303,18 @@ std::string reasonForBestPossible(const Options& options, const OptimalBound& bo
   const Body before = inputBody(found.task);
   const Body after = isFound ? hollowBody(found.task, found.cavity) : before;
   const double gap = gapToBound(bound, before, after);
+  const auto isSolved = [&](const Verdict& verdict, const Moments& mass, double violation) {
+    return violation <= kFeasibility && verdict.isReached(mass);
+  };
+  const bool isMissed = gap > 0.0 && !isSolved(*found.verdictAfter, after.mass, after.violation);
+  std::string missed = "the offset surface misses the goal";
+  if (isMissed && isSolved(*found.verdictBefore, bound.massMoments, bound.violation)) return missed;
   // With a weight on smoothness it is far by intention.
   if (options.weights.smoothness == 0.0) {
     if (gap > kFar) return "the offset surface leaves " + percent(gap) + " % of what is possible";
     if (found.cavity.roughEnds > 0) return "ends of the offset surface stay pleated";
   }
-  const bool isSolved =
-      after.violation <= kFeasibility && found.verdictAfter->isReached(after.mass);
-  return isSolved || gap == 0.0 ? "" : "the offset surface misses the goal";
+  return isMissed ? missed : "";
 }
 
 /// A body whose outer surface has moved, as one that rests.
