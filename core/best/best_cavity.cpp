@@ -254,11 +254,24 @@ OpenedSet withWall(const OpenedSet& set, double wall) {
   return result;
 }
 
-bool leavesRoom(const TriangleTree& surface, double wall) {
-  constexpr double kFewCubes = 8000.0;
-  const double edge = edgeOfCubes(surfaceArea(surface.vertices(), surface.faces()), kFewCubes);
-  const std::optional<CavityContour> found = cavityContour(openedSet(surface, wall, edge), {});
+bool leavesRoom(const OpenedSet& set) {
+  const std::optional<CavityContour> found = cavityContour(set, {});
   return found && found->contour.mesh.faces.rows() > 0;
+}
+
+/// Few cubes tell of room in most models, many of rooms that are as narrow as the wall in a large
+/// one.
+enum class Look { Quickly, Thoroughly };
+
+bool leavesRoom(const TriangleTree& surface, double wall, Look look) {
+  constexpr double kFew = 8000.0;
+  constexpr double kMany = 100000.0;
+  constexpr double kAcross = 2.0;
+  const double area = surfaceArea(surface.vertices(), surface.faces());
+  const double coarse = edgeOfCubes(area, kFew);
+  const double fine = std::max(wall / kAcross, edgeOfCubes(area, kMany));
+  return leavesRoom(
+      openedSet(surface, wall, look == Look::Quickly ? coarse : std::min(fine, coarse)));
 }
 
 /// What is left of what is possible.
@@ -327,7 +340,7 @@ Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, const IsEnou
     if (!found || found->contour.mesh.faces.rows() == 0) {
       result = {};
       // Where there is room the limit's body is the solid one.
-      if (leavesRoom(task.surface, task.wall)) result.status = CavityStatus::NoGain;
+      if (leavesRoom(task.surface, task.wall, Look::Quickly)) result.status = CavityStatus::NoGain;
       result.stopReason = found ? "the best possible cavity is none"
                                 : "the best possible cavity cannot be resolved";
       break;
@@ -449,6 +462,10 @@ CavityResult inFineCubes(const CavityTask& task, OpenedSet deliverable) {
     best = std::move(finer);
     edgeOfBest = deliverable.edge;
   }
+  deliverable.edge = std::max(deliverable.edge, kLeastEdge);
+  // Rooms about as wide as the wall slip through the few cubes that were asked so far.
+  if (best.result.status == CavityStatus::NoRoom && leavesRoom(deliverable))
+    best.result.status = CavityStatus::NoGain;
   if (best.isFinished) return std::move(best.result);
   deliverable.edge = edgeOfBest;
   Made finished = cavityOf(task, deliverable, {});
@@ -521,11 +538,20 @@ CavityResult bestPossibleCavity(const CavityTask& task, const OpenedSet& deliver
 
 double largestWallForBestPossible(const CavityTask& task,
                                   const std::function<void(double)>& progress) {
-  // Without cells there is no limit, and no quadric to go by.
-  const auto hasRoom = [&](double wall) {
-    return admissibleCells(task.surface, wall).rows() > 0 && leavesRoom(task.surface, wall);
+  constexpr double kQuick = 0.3; // of the time for both
+  const auto greatest = [&](Look look) {
+    // Without cells there is no limit, and no quadric to go by.
+    const auto hasRoom = [&](double wall) {
+      return admissibleCells(task.surface, wall).rows() > 0 && leavesRoom(task.surface, wall, look);
+    };
+    return greatestWall(task.wall, hasRoom, [&](double share) {
+      const bool isQuick = look == Look::Quickly;
+      if (progress) progress(isQuick ? kQuick * share : kQuick + (1.0 - kQuick) * share);
+    });
   };
-  return greatestWall(task.wall, hasRoom, progress);
+  const double found = greatest(Look::Quickly);
+  constexpr double kFar = 0.2; // else it would not be worth the wait
+  return found > kFar * task.wall ? found : std::max(found, greatest(Look::Thoroughly));
 }
 
 } // namespace massprops

@@ -44,5 +44,45 @@ TEST(BestCavity, StaysSolidWhereItCrossesItselfOnlyOnceItIsStored) {
   EXPECT_LT(std::get<double>(result.report.at("gap_to_limit")), 0.03);
 }
 
+/// A large standing sheet, and a cube at its foot.
+TriangleMesh sheetWithCube(double side, double thickness, double cube) {
+  return joined(shifted(box({side, thickness, side}), {0.0, 0.0, 0.5 * side}),
+                shifted(box({cube, cube, cube}), {0.0, 0.5, 0.5 * cube}));
+}
+
+Report bestReport(const TriangleMesh& model, GoalKind goal, double wall) {
+  Options options;
+  options.goal = goal;
+  options.cavityShape = CavityShape::BestPossible;
+  options.innerLowerBound = wall;
+  return optimizeMassProperties(model, options).report;
+}
+
+std::string messageOf(const Report& report) {
+  return std::get<std::string>(report.at("message"));
+}
+
+TEST(BestCavity, IsSaidToServeNoBetterWhereASmallRoomDoesNot) {
+  // A room in the cube alone, and nothing that is hollow so low makes it stand better.
+  constexpr double kWall = 0.05;
+  const TriangleMesh model = sheetWithCube(6.0, 2.4 * kWall, 3.3 * kWall);
+  EXPECT_GT(std::get<int>(bestReport(model, GoalKind::Mass, kWall).at("cavity_triangles")), 0);
+  const std::string told = messageOf(bestReport(model, GoalKind::Stand, kWall));
+  EXPECT_NE(told.find("no cavity with this wall was found to serve it better"), std::string::npos)
+      << told;
+}
+
+TEST(BestCavity, HasALargestWallInASmallRoomToo) {
+  // Neither the cube nor the sheet has room for the first one.
+  constexpr double kCube = 0.165;
+  const TriangleMesh model = sheetWithCube(8.0, 0.12, kCube);
+  const Report none = bestReport(model, GoalKind::Mass, 0.06);
+  ASSERT_NE(messageOf(none).find("nothing can be hollowed"), std::string::npos);
+  const double wall = std::get<double>(none.at("largest_wall"));
+  EXPECT_LE(wall, kCube / 3.0);
+  EXPECT_GT(wall, 0.8 * kCube / 3.0);
+  EXPECT_GT(std::get<int>(bestReport(model, GoalKind::Mass, wall).at("cavity_triangles")), 0);
+}
+
 } // namespace
 } // namespace massprops::testing
