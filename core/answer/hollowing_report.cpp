@@ -180,15 +180,19 @@ std::string whatLeavesNoRoom(const CavityTask& task, const Options& options) {
   const bool isOffset = options.cavityShape == CavityShape::Offset;
   const bool countsAngle = isAngleGiven && !isOffset;
   const std::string nothing = "nothing can be hollowed at this wall";
+  // They may be an offset surface's, which was not looked for.
+  const bool isOpened = countsAngle || options.cavityShape == CavityShape::BestPossible;
+  const std::string apart = isOpened ? ", channels narrower than the wall apart" : "";
   if (task.surface.keepsOut()) {
     return nothing + (countsAngle ? ", solid depth and overhang angle" : " and solid depth") +
-           ": select fewer faces, or lower solid_depth" +
+           apart + ": select fewer faces, or lower solid_depth" +
            (countsAngle ? " or overhang_angle" : "") + "; without these" +
            (isAngleGiven && isOffset ? " and overhang_angle, " : ", ");
   }
   if (isAngleGiven && isOffset) return nothing + ", whatever overhang_angle is; without it, ";
-  return nothing +
-         (isAngleGiven ? " and overhang angle: lower overhang_angle; without it, " : ": ");
+  return nothing + (isAngleGiven
+                        ? " and overhang angle" + apart + ": lower overhang_angle; without it, "
+                        : apart + ": ");
 }
 
 std::string message(const CavityTask& task, const Verdicts& verdicts, const CavityResult& cavity,

@@ -72,6 +72,22 @@ TEST(BestCavity, IsSaidToServeNoBetterWhereASmallRoomDoesNot) {
       << told;
 }
 
+TEST(BestCavity, IsNotSaidToBeAllThatFitsWhereAnOffsetSurfaceDoes) {
+  // What is a wall behind both sides of the sheet is half a wall wide.
+  constexpr double kWall = 0.05;
+  const TriangleMesh sheet = box({1.0, 2.5 * kWall, 1.0});
+  const std::string told = messageOf(bestReport(sheet, GoalKind::Mass, kWall));
+  EXPECT_NE(
+      told.find("nothing can be hollowed at this wall, channels narrower than the wall apart"),
+      std::string::npos)
+      << told;
+  Options options;
+  options.goal = GoalKind::Mass;
+  options.cavityShape = CavityShape::Offset;
+  options.innerLowerBound = kWall;
+  EXPECT_GT(optimizeMassProperties(sheet, options).inner.faces.rows(), 0);
+}
+
 TEST(BestCavity, HasALargestWallInASmallRoomToo) {
   // Neither the cube nor the sheet has room for the first one.
   constexpr double kCube = 0.165;
