@@ -6,6 +6,7 @@
 #include "core/best/polish.h"
 #include "core/best/uniform_wall.h"
 #include "core/contour/cavity_contour.h"
+#include "core/contour/inscribed_ball.h"
 #include "core/contour/wall_keeping.h"
 #include "core/optimum/admissible_cells.h"
 #include "core/reduced/hollow_body.h"
@@ -254,25 +255,26 @@ OpenedSet withWall(const OpenedSet& set, double wall) {
   return result;
 }
 
-bool leavesRoom(const OpenedSet& set) {
-  const std::optional<CavityContour> found = cavityContour(set, {});
-  return found && found->contour.mesh.faces.rows() > 0;
+/// The wall up to which there is room behind it; one that is `about` as thick is exact.
+double wallWithRoom(const TriangleTree& surface, double about) {
+  return wallWithRoomFor(largestInscribedBall(surface, about).radius);
 }
 
-/// Few cubes tell of room in most models, many of rooms that are as narrow as the wall in a large
-/// one.
-enum class Look { Quickly, Thoroughly };
+/// Whether there is room behind a wall, which is looked for when it is asked for first.
+class Room {
+public:
+  Room(const TriangleTree& surface, double wall) : surface_(surface), wall_(wall) {}
 
-bool leavesRoom(const TriangleTree& surface, double wall, Look look) {
-  constexpr double kFew = 8000.0;
-  constexpr double kMany = 100000.0;
-  constexpr double kAcross = 2.0;
-  const double area = surfaceArea(surface.vertices(), surface.faces());
-  const double coarse = edgeOfCubes(area, kFew);
-  const double fine = std::max(wall / kAcross, edgeOfCubes(area, kMany));
-  return leavesRoom(
-      openedSet(surface, wall, look == Look::Quickly ? coarse : std::min(fine, coarse)));
-}
+  bool isThere() {
+    if (!isThere_) isThere_ = wallWithRoom(surface_, wall_) >= wall_;
+    return *isThere_;
+  }
+
+private:
+  const TriangleTree& surface_;
+  double wall_;
+  std::optional<bool> isThere_;
+};
 
 /// What is left of what is possible.
 double gapOf(const CavityTask& task, const Body& body) {
@@ -312,7 +314,8 @@ Rough roughlyPolished(const CavityTask& task, double edge, const Contour& contou
 using IsEnough = std::function<bool(double gap, double area)>;
 
 /// In cubes of the set's edge.
-Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, const IsEnough& isEnough) {
+Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, Room& room,
+              const IsEnough& isEnough) {
   const LayeredQuadric& quadric = task.bound->worth;
   CavityResult rough;
   ContourUse use;
@@ -340,7 +343,7 @@ Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, const IsEnou
     if (!found || found->contour.mesh.faces.rows() == 0) {
       result = {};
       // Where there is room the limit's body is the solid one.
-      if (leavesRoom(task.surface, task.wall, Look::Quickly)) result.status = CavityStatus::NoGain;
+      if (room.isThere()) result.status = CavityStatus::NoGain;
       result.stopReason = found ? "the best possible cavity is none"
                                 : "the best possible cavity cannot be resolved";
       break;
@@ -380,12 +383,13 @@ bool isCut(const CavityTask& task) {
   return sideOfCut(region, 0.5 * (low + high), 0.5 * (high - low).norm()) != Side::Positive;
 }
 
+constexpr double kUncut = 1.2; // as large as they are behind a wall alone
+
 /// Of cubes that leave little of what is possible: by what larger ones leave, where that depends
 /// on the goal.
 double edgeThatWillDo(const CavityTask& task, const OpenedSet& deliverable) {
   constexpr double kLarger = 2.0;
-  constexpr double kWanted = 0.010; // before all is polished
-  constexpr double kUncut = 1.2;
+  constexpr double kWanted = 0.010;  // before all is polished
   constexpr double kCarrying = 0.85; // ceilings that shall carry themselves ask for more
   if (deliverable.fill) return kCarrying * deliverable.edge;
   if (!isCut(task)) return kUncut * leewayOfEdge(task.surface) * deliverable.edge;
@@ -422,15 +426,21 @@ double cubesWorth(double gap, double leeway) {
   return gap <= kFar ? kManyCubes : std::numeric_limits<double>::infinity();
 }
 
+/// One corner of such a cube is in any room as wide as the ball.
+constexpr double kResolves = 0.55; // of the ball
+
+/// Where cubes of this edge find no room, of those that do; less than an eighth would be too many.
+double edgeThatResolves(double edge, double ball) {
+  return std::clamp(kResolves * ball, edge / 8.0, edge / 2.0);
+}
+
 /// In cubes as fine as it takes to lose little.
-CavityResult inFineCubes(const CavityTask& task, OpenedSet deliverable) {
+CavityResult inFineCubes(const CavityTask& task, OpenedSet deliverable, Room& room) {
   const double more = leeway(task.surface);
   const std::array<double, 2> enough{more * 0.018, more * 0.025};  // of what is possible is left
   const std::array<double, 2> roughlyEnough{more * 0.018, 0.0275}; // before all is polished
   constexpr double kWanted = 0.01;
   constexpr double kWantedOfMany = 0.02;
-  // Askew rooms as wide as the ball slip through larger ones.
-  constexpr double kResolves = 0.55; // of the ball
   deliverable.edge = edgeThatWillDo(task, deliverable);
   const auto edgeFor = [&](double gap, double wanted) {
     return deliverable.edge * std::clamp(std::sqrt(wanted / gap), 0.5, 0.8);
@@ -441,20 +451,19 @@ CavityResult inFineCubes(const CavityTask& task, OpenedSet deliverable) {
   const auto isRoughlyEnough = [&](std::size_t i) {
     return [&, i](double gap, double area) { return isEnough(gap, area, roughlyEnough[i]); };
   };
-  Made best = cavityOf(task, deliverable, isRoughlyEnough(0));
+  Made best = cavityOf(task, deliverable, room, isRoughlyEnough(0));
   double edgeOfBest = deliverable.edge;
   for (std::size_t i = 0; i < enough.size(); ++i) {
-    const bool isNone = best.result.status == CavityStatus::NoRoom;
-    const double gap = isNone ? gapOf(task, inputBody(task)) : gapOf(task, best.result);
+    const double gap = gapOf(task, best.result);
     const double area = surfaceArea(best.result.inner, best.result.cavity.faces);
-    if (isEnough(gap, area, enough[i]) ||
-        (isNone && deliverable.edge <= kResolves * deliverable.ball))
-      break;
+    if (isEnough(gap, area, enough[i]) || best.result.status == CavityStatus::NoRoom) break;
     const bool areMany = edgeOfCubes(area, kManyCubes) > edgeFor(gap, kWanted);
-    deliverable.edge = edgeFor(gap, areMany ? kWantedOfMany : kWanted);
+    const bool isNone = best.result.cavity.faces.rows() == 0;
+    deliverable.edge = isNone ? edgeThatResolves(deliverable.edge, deliverable.ball)
+                              : edgeFor(gap, areMany ? kWantedOfMany : kWanted);
     if (deliverable.edge < kLeastEdge) break;
     const bool isLast = i + 1 == enough.size();
-    Made finer = cavityOf(task, deliverable, isLast ? IsEnough() : isRoughlyEnough(i + 1));
+    Made finer = cavityOf(task, deliverable, room, isLast ? IsEnough() : isRoughlyEnough(i + 1));
     finer.result.effort += best.result.effort;
     const bool isBetter = servesBetter(task, finer.result, best.result);
     best.result.effort = finer.result.effort;
@@ -463,14 +472,37 @@ CavityResult inFineCubes(const CavityTask& task, OpenedSet deliverable) {
     edgeOfBest = deliverable.edge;
   }
   deliverable.edge = std::max(deliverable.edge, kLeastEdge);
-  // Rooms about as wide as the wall slip through the few cubes that were asked so far.
-  if (best.result.status == CavityStatus::NoRoom && leavesRoom(deliverable))
-    best.result.status = CavityStatus::NoGain;
   if (best.isFinished) return std::move(best.result);
   deliverable.edge = edgeOfBest;
-  Made finished = cavityOf(task, deliverable, {});
+  Made finished = cavityOf(task, deliverable, room, {});
   finished.result.effort += best.result.effort;
   return std::move(finished.result);
+}
+
+/// As finely as the rooms behind a wall are narrow.
+double edgeFor(const RegionParts& behindWall, const AdmissibleCells& cells) {
+  constexpr double kFewest = 15000.0;
+  constexpr double kMost = 50000.0;
+  constexpr double kAcross = 9.0; // a room of the mean width
+  const double area = borderArea(behindWall);
+  const double width = 2.0 * cells.col(0).sum() / area;
+  const double edge =
+      std::clamp(width / kAcross, edgeOfCubes(area, kMost), edgeOfCubes(area, kFewest));
+  return std::max(edge, kLeastEdge);
+}
+
+/// \pre there is room for a ball as wide as the wall
+bool seesRoom(const TriangleTree& surface, double wall) {
+  constexpr double kLarger = 2.0; // than is known here, if that will do
+  const RegionParts behindWall = admissibleParts(surface, wall);
+  const AdmissibleCells cells = cellsOf(behindWall);
+  // Without cells there is no limit, and no quadric to go by.
+  if (cells.rows() == 0) return false;
+  const double edge =
+      std::max(edgeThatResolves(kLarger * edgeFor(behindWall, cells), wall), kLeastEdge);
+  if (edge <= kResolves * wall) return true;
+  const std::optional<CavityContour> found = cavityContour(openedSet(surface, wall, edge), {});
+  return found && found->contour.mesh.faces.rows() > 0;
 }
 
 /// Where a mass is all that is wanted: behind a wall as thick everywhere as that takes. Empty: more
@@ -512,25 +544,19 @@ std::optional<CavityResult> uniformlyWalled(const CavityTask& task, const Opened
 
 Deliverable deliverableSet(const TriangleTree& surface, double wall, const RegionParts& behindWall,
                            const AdmissibleCells& cells) {
-  constexpr double kFewest = 15000.0;
-  constexpr double kMost = 50000.0;
-  constexpr double kAcross = 9.0; // a room of the mean width
-  const double area = borderArea(behindWall);
-  const double width = 2.0 * cells.col(0).sum() / area;
-  const double edge =
-      std::clamp(width / kAcross, edgeOfCubes(area, kMost), edgeOfCubes(area, kFewest));
-  OpenedSet set = openedSet(surface, wall, std::max(edge, kLeastEdge));
+  OpenedSet set = openedSet(surface, wall, edgeFor(behindWall, cells));
   AdmissibleCells within = cellsWithin(set, behindWall);
   return {std::move(set), std::move(within)};
 }
 
 CavityResult bestPossibleCavity(const CavityTask& task, const OpenedSet& deliverable, Cubes cubes) {
   const Stopwatch time;
+  Room room(task.surface, task.wall);
   std::optional<CavityResult> walled;
   if (!deliverable.fill) walled = uniformlyWalled(task, deliverable);
   CavityResult result = walled                     ? *std::move(walled)
-                        : cubes == Cubes::OfTheSet ? cavityOf(task, deliverable, {}).result
-                                                   : inFineCubes(task, deliverable);
+                        : cubes == Cubes::OfTheSet ? cavityOf(task, deliverable, room, {}).result
+                                                   : inFineCubes(task, deliverable, room);
   if (result.status == CavityStatus::Found) result.outer = task.surface.vertices();
   result.effort.secondsOptimization = time.seconds() - result.effort.secondsInspection;
   return result;
@@ -538,20 +564,11 @@ CavityResult bestPossibleCavity(const CavityTask& task, const OpenedSet& deliver
 
 double largestWallForBestPossible(const CavityTask& task,
                                   const std::function<void(double)>& progress) {
-  constexpr double kQuick = 0.3; // of the time for both
-  const auto greatest = [&](Look look) {
-    // Without cells there is no limit, and no quadric to go by.
-    const auto hasRoom = [&](double wall) {
-      return admissibleCells(task.surface, wall).rows() > 0 && leavesRoom(task.surface, wall, look);
-    };
-    return greatestWall(task.wall, hasRoom, [&](double share) {
-      const bool isQuick = look == Look::Quickly;
-      if (progress) progress(isQuick ? kQuick * share : kQuick + (1.0 - kQuick) * share);
-    });
-  };
-  const double found = greatest(Look::Quickly);
-  constexpr double kFar = 0.2; // else it would not be worth the wait
-  return found > kFar * task.wall ? found : std::max(found, greatest(Look::Thoroughly));
+  constexpr double kNearly = 0.95; // cubes do not see what just fits
+  const double greatest = wallWithRoom(task.surface, task.wall);
+  const double wall = std::min(kNearly * greatest, task.wall);
+  const auto sees = [&](double some) { return seesRoom(task.surface, some); };
+  return wall > 0.0 && sees(wall) ? wall : greatestWall(wall, sees, progress);
 }
 
 } // namespace massprops

@@ -89,6 +89,10 @@ OpenedSet openedSet(const TriangleTree& surface, double wall, double ball, doubl
   return {surface, roomy, ball, edge, {roomy + radius, kReach * radius}};
 }
 
+double wallWithRoomFor(double radius) {
+  return radius / (1.0 + kMargin + 0.5 * kJustFits);
+}
+
 AdmissibleCells cellsWithin(const OpenedSet& set, const RegionParts& all) {
   std::vector<AdmissibleCells> turns;
   Eigen::Index count = 0;

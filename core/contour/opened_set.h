@@ -26,6 +26,10 @@ double edgeOfCubes(double area, double count);
 OpenedSet openedSet(const TriangleTree& surface, double wall, double edge);
 OpenedSet openedSet(const TriangleTree& surface, double wall, double ball, double edge);
 
+/// The wall up to which there is room for a ball as wide as the wall behind it, where the surface
+/// has room for one of this radius.
+double wallWithRoomFor(double radius);
+
 /// What belongs to it of the cubes behind the walls, as `cellsOf` has it.
 AdmissibleCells cellsWithin(const OpenedSet& set, const RegionParts& all);
 
