@@ -23,9 +23,11 @@
 #include "core/reduced/hollow_body.h"
 #include "core/reduced/search_strategy.h"
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <new>
 #include <string>
 #include <utility>
@@ -527,6 +529,19 @@ void proveOutOfReach(const Preparation& model, const Fillings& fillings, Search&
   found.secondsCertificate = time.seconds();
 }
 
+/// That any of the shapes asked for leaves room behind; 0 when none was found.
+double largestWallOf(const Preparation& model, const Foundation& foundation, const Options& options,
+                     const CavityTask& task, const std::function<void(double)>& progress) {
+  double wall = 0.0;
+  if (options.cavityShape != CavityShape::Offset && !model.posed.open)
+    wall = largestWallForBestPossible(task, progress);
+  if (!movesInwards(model, options)) return wall;
+  const auto boundsFor = [&](double some) {
+    return boundsKeeping(some, model, *foundation.coarse.moving, task.model.field, options);
+  };
+  return std::max(wall, largestWall(task, boundsFor, progress));
+}
+
 } // namespace
 
 double solidDepthOf(const PosedModel& posed, const Options& options) {
@@ -660,15 +675,7 @@ Search search(const Preparation& model, const Foundation& foundation, const Opti
   const Stopwatch time;
   constexpr int kFound = 99; // before the report
   const auto progress = bar.within(Schedule::kEnd, kFound, "Largest wall that leaves room");
-  result.largestWall = movesInwards(model, options)
-                           ? largestWall(
-                                 result.task,
-                                 [&](double wall) {
-                                   return boundsKeeping(wall, model, *foundation.coarse.moving,
-                                                        result.task.model.field, options);
-                                 },
-                                 progress)
-                           : largestWallForBestPossible(result.task, progress);
+  result.largestWall = largestWallOf(model, foundation, options, result.task, progress);
   result.secondsLargestWall = time.seconds();
   return result;
 }

@@ -1044,6 +1044,26 @@ TEST(Pipeline, KnowsTheLargestWallThatLeavesRoomForABestPossibleCavity) {
   EXPECT_LE(wall, 1.0 / 3.0);
 }
 
+TEST(Pipeline, KnowsTheLargestWallOfEitherShapeUnlessOneIsAskedFor) {
+  const auto largest = [](const TriangleMesh& model, double wall, CavityShape shape) {
+    Options options;
+    options.goal = GoalKind::Mass;
+    options.cavityShape = shape;
+    options.innerLowerBound = wall;
+    return number(optimizeMassProperties(model, options), "largest_wall");
+  };
+  // In a sheet there is room for an offset surface before a ball as wide as the wall fits between
+  // two walls; in a cube it is the other way round, for little is no room for the surface.
+  const TriangleMesh sheet = box({1.0, 0.12, 1.0}, 6);
+  const TriangleMesh cube = box({1.0, 1.0, 1.0}, 6);
+  const double inSheet = largest(sheet, 0.07, CavityShape::Offset);
+  EXPECT_GT(inSheet, largest(sheet, 0.07, CavityShape::BestPossible));
+  EXPECT_EQ(largest(sheet, 0.07, CavityShape::Automatic), inSheet);
+  const double inCube = largest(cube, 0.45, CavityShape::BestPossible);
+  EXPECT_GT(inCube, largest(cube, 0.45, CavityShape::Offset));
+  EXPECT_EQ(largest(cube, 0.45, CavityShape::Automatic), inCube);
+}
+
 TEST(Pipeline, SaysWhatToDoWhereALibraryGivesUp) {
   // CGAL's failures are logic errors.
   Options options;
