@@ -994,7 +994,9 @@ std::vector<std::string> brokenPromises(const PropertyCase& c, const Result& res
     // Empty, full, and as many levels of contents as the search for the best possible one looks at.
     const double states = bothStates ? std::log(102.0) / 70.0 : 0.0;
     // Metacentres are heights over steps of cos 4°: rounded coordinates count 400 times.
+    // The weighted share of the volume has no unit.
     const double objectiveSlack = (isSoft ? std::log(136.0) / 70.0 + states : 1e-8 * unit) +
+                                  1e-8 * c.options.weights.volume +
                                   inertiaError * std::max(unit, unit * unit) +
                                   (goal == GoalKind::RollUpright ? 1e3 * error : 0.0);
     const bool nothingViolated = violationBefore == 0.0 && violationAfter <= 1e-7;
