@@ -11,7 +11,9 @@
 #include "core/query/winding_number.h"
 #include "core/query/winding_volume.h"
 
-#include <CGAL/alpha_wrap_3.h>
+#include <CGAL/Alpha_wrap_3/internal/Alpha_wrap_3.h>
+#include <CGAL/Alpha_wrap_3/internal/Alpha_wrap_AABB_traits.h>
+#include <CGAL/Alpha_wrap_3/internal/offset_intersection.h>
 
 #include <Eigen/Eigenvalues>
 
@@ -82,21 +84,82 @@ double radiusOfHoles(const TriangleMesh& mesh, double beyond) {
   return radius;
 }
 
-std::optional<TriangleMesh> wrapOf(const TriangleMesh& mesh, double ball, double offset) {
-  std::vector<SurfaceKernel::Point_3> points;
-  std::vector<std::array<std::size_t, 3>> triangles;
-  points.reserve(static_cast<std::size_t>(mesh.vertices.rows()));
-  triangles.reserve(static_cast<std::size_t>(mesh.faces.rows()));
-  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
-    points.emplace_back(mesh.vertices(v, 0), mesh.vertices(v, 1), mesh.vertices(v, 2));
+/// What the wrap asks of the triangles. CGAL's own oracle puts a tree of points beside a tree of
+/// split triangles: 112 MB for a table of 58,000, where the whole run needs 33 with this one, in
+/// 0.9 of the time.
+class WrapOracle {
+public:
+  using Geom_traits = CGAL::Alpha_wraps_3::internal::Alpha_wrap_AABB_traits<SurfaceKernel>;
+  using Point = Geom_traits::Point_3;
+
+  explicit WrapOracle(const TriangleTree& surface) : surface_(surface) {}
+
+  const Geom_traits& geom_traits() const { return traits_; }
+
+  CGAL::Bbox_3 bbox() const {
+    const Vec3 lower = surface_.lower();
+    const Vec3 upper = surface_.upper();
+    return {lower.x(), lower.y(), lower.z(), upper.x(), upper.y(), upper.z()};
   }
-  for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
-    const auto at = [&](int k) { return static_cast<std::size_t>(mesh.faces(f, k)); };
-    triangles.push_back({at(0), at(1), at(2)});
+
+  bool do_intersect(const Geom_traits::Ball_3& ball) const {
+    return surface_.nearest(at(ball.boundary().center()), ball.boundary().squared_radius()).face >=
+           0;
   }
+
+  template <class Kernel>
+  bool do_intersect(
+      const CGAL::Alpha_wraps_3::internal::Tetrahedron_with_outside_info<Kernel>& cell) const {
+    const CGAL::Bbox_3& box = cell.m_bbox;
+    bool isCut = false;
+    surface_.forOverlaps({box.xmin(), box.ymin(), box.zmin()}, {box.xmax(), box.ymax(), box.zmax()},
+                         0, [&](Eigen::Index place) {
+                           if (isCut) return;
+                           const auto face = triangle(surface_.faceAt(place));
+                           // The predicates do not take faces without area.
+                           isCut = !traits_.is_degenerate_3_object()(face) &&
+                                   traits_.do_intersect_3_object()(cell, face);
+                         });
+    return isCut;
+  }
+
+  Point closest_point(const Point& p) const {
+    const Vec3 nearest = surface_.nearest(at(p)).point;
+    return {nearest.x(), nearest.y(), nearest.z()};
+  }
+
+  double operator()(const Point& p) const {
+    return std::sqrt(surface_.nearest(at(p)).squaredDistance);
+  }
+
+  bool first_intersection(const Point& p, const Point& q, Point& first, double offset) const {
+    constexpr double kPrecision = 0.01; // CGAL's own
+    return CGAL::Alpha_wraps_3::internal::Offset_intersection<Geom_traits, const WrapOracle&>(
+               *this, offset, kPrecision * offset, 1.0)
+        .first_intersection(p, q, first);
+  }
+
+private:
+  static Vec3 at(const Point& p) { return {p.x(), p.y(), p.z()}; }
+
+  Geom_traits::Triangle_3 triangle(int face) const {
+    const auto corner = [&](int k) {
+      const auto p = surface_.vertices().row(surface_.faces()(face, k));
+      return Point(p.x(), p.y(), p.z());
+    };
+    return {corner(0), corner(1), corner(2)};
+  }
+
+  const TriangleTree& surface_;
+  Geom_traits traits_;
+};
+
+std::optional<TriangleMesh> wrapOf(const TriangleTree& surface, double ball, double offset) {
+  const WrapOracle oracle(surface);
   SurfaceMesh wrap;
   try {
-    CGAL::alpha_wrap_3(points, triangles, ball, offset, wrap);
+    CGAL::Alpha_wraps_3::internal::Alpha_wrap_3<WrapOracle> builder(oracle);
+    builder(ball, offset, wrap);
   } catch (const std::exception&) {
     return std::nullopt;
   }
@@ -167,15 +230,14 @@ MendedMesh wrappedKeeping(double kept, const TriangleMesh& input, const MendingT
   // A ball that fits through a hole leaves the hollow inside.
   constexpr double kLarger = 1.5;
   const double holes = radiusOfHoles(input, 0.5 * kFinestBall * diagonal);
+  const TriangleTree surface(input.vertices, input.faces);
   std::optional<TriangleMesh> wrap;
   for (double ball = std::clamp(holes, kFinestBall * diagonal, kCoarsestBall * diagonal);
        !wrap && ball <= kCoarsestBall * diagonal; ball *= kLarger) {
-    wrap = wrapOf(input, ball, offset);
+    wrap = wrapOf(surface, ball, offset);
     if (wrap && signedVolume(wrap->vertices, wrap->faces) < kept * volume) wrap.reset();
   }
   if (!wrap) return {input};
-  // While the wrap was made the memory was wanted.
-  const TriangleTree surface(input.vertices, input.faces);
   wrap = tightened(*wrap, surface, offset, task);
   if (!wrap) return {input};
 

@@ -37,6 +37,13 @@ struct Normal {
   double length; ///< product of the lengths of both edges, the scale of the vector's rounding
 };
 
+/// Of the faces from a place on, each once, ascending.
+void leaveOne(std::size_t from, std::vector<int>& faces) {
+  const auto begin = faces.begin() + static_cast<std::ptrdiff_t>(from);
+  std::sort(begin, faces.end());
+  faces.erase(std::unique(begin, faces.end()), faces.end());
+}
+
 /// Looks for crossings of one surface with itself.
 class SelfIntersections {
 public:
@@ -63,8 +70,7 @@ public:
     });
     std::vector<int> all;
     for (const std::vector<int>& part : found) all.insert(all.end(), part.begin(), part.end());
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
+    leaveOne(0, all);
     return all;
   }
 
@@ -339,7 +345,9 @@ private:
         ++patches.next;
       }
     }
+    const std::size_t before = found.size();
     comparePairs(block, patches, found);
+    leaveOne(before, found); // in a soup every face crosses many
   }
 
   /// Pairs that no patch has in common. Most often one patch has the whole block.

@@ -427,6 +427,18 @@ TEST(Wrapped, KeepsTheVolumeOfASoup) {
   EXPECT_NE(result.done.find("wrapped, volume "), std::string::npos);
 }
 
+TEST(Wrapped, TakesFacesWithoutArea) {
+  TriangleMesh body = box({2, 2, 2}, 4);
+  // Along an edge and across it, some of them where the wrap goes.
+  const Eigen::Index faces = body.faces.rows();
+  body.faces.conservativeResize(2 * faces, 3);
+  for (Eigen::Index f = 0; f < faces; ++f)
+    body.faces.row(faces + f) << body.faces(f, 0), body.faces(f, 1), body.faces(f, 0);
+  const MendedMesh result = wrapped(body, taskFor(body));
+  expectClosed(result.mesh);
+  EXPECT_NEAR(volume(result.mesh), 8.0, 0.03 * 8.0);
+}
+
 TEST(Wrapped, TakesABallThatFollowsFromTheHoles) {
   // One that a fine ball would get through.
   const TriangleMesh body = box({2, 2, 2}, 16);
