@@ -509,6 +509,7 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Ve
   if (hasCavity) report.add("cavity_shape", shapeOf(cavity, options) + stages.shapeReason);
   if (cavity.shape == CavityShape::Offset) {
     report.add("solid_vertices", solidVertices(task, cavity));
+    if (hasCavity) report.add("pleated_ends", cavity.roughEnds);
   }
   addEffort(cavity, stages, report);
   return report;

@@ -1,5 +1,6 @@
 #include "core/mesh/refinement.h"
 
+#include "core/base/triangle.h"
 #include "core/mesh/cgal_mesh.h"
 
 #include <CGAL/Polygon_mesh_processing/remesh.h>
@@ -174,14 +175,22 @@ TriangleMesh remeshedPart(const TriangleMesh& patch, Eigen::Index first) {
   const auto count = static_cast<Eigen::Index>(mesh.number_of_faces());
   const std::vector<Edge> border = borderOf(mesh, first);
   if (count < patch.faces.rows() || border.empty()) return {};
+  const double length = wantedLength(mesh, border);
+  constexpr double kMostTriangles = 20000.0; // of a part with a border of slivers, which take long
+  constexpr double kTriangle = 0.433;        // area of an equilateral one with edges of length 1
   std::vector<Face> part;
-  for (Eigen::Index f = first; f < count; ++f) part.emplace_back(static_cast<Face::size_type>(f));
+  double area = 0.0;
+  for (Eigen::Index f = first; f < count; ++f) {
+    part.emplace_back(static_cast<Face::size_type>(f));
+    area += 0.5 * areaNormal(patch.vertices, patch.faces, f).norm();
+  }
+  if (area > kMostTriangles * kTriangle * length * length) return {};
   auto isFixed = mesh.add_property_map<Edge, bool>("e:is_fixed", false).first;
   for (const Edge e : border) isFixed[e] = true;
   std::vector<char> isOutside(mesh.num_vertices(), 0); // or on the border
   for (const int v : patch.faces.topRows(first).reshaped())
     isOutside[static_cast<std::size_t>(v)] = 1;
-  Processing::isotropic_remeshing(part, wantedLength(mesh, border), mesh,
+  Processing::isotropic_remeshing(part, length, mesh,
                                   CGAL::parameters::number_of_iterations(kRounds)
                                       .protect_constraints(true)
                                       .edge_is_constrained_map(isFixed));

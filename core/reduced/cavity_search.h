@@ -63,7 +63,7 @@ struct CavityResult {
   Points outer;                      ///< of the outer surface, moved or not
   CavitySurface cavity;              ///< over `inner`; no faces: nothing can be hollowed
   Vector innerOffsets, outerOffsets; ///< of an offset surface
-  int roughEnds = 0;                 ///< of an offset surface: those without a smooth cap
+  int roughEnds = 0;                 ///< of an offset surface: those that stay pleated
   double edge = 0.0;                 ///< of a best possible cavity's cubes, working length
   /// Null, or what remembers the distances from the outer surface, which rests.
   std::shared_ptr<ClearanceQuery> clearance;

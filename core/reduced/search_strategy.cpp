@@ -1,5 +1,6 @@
 #include "core/reduced/search_strategy.h"
 
+#include "core/base/tolerances.h"
 #include "core/reduced/hollow_body.h"
 #include "core/reduced/smooth_caps.h"
 
@@ -16,12 +17,29 @@ namespace {
 /// Above this gap another search, with other directions, is worth its time.
 constexpr double kFarFromBound = 0.02;
 
-bool isFarFromBound(const CavityTask& task, const CavityResult& cavity) {
+bool mayBeImproved(const CavityTask& task, const CavityResult& cavity) {
   // With a weight on smoothness the best body is far from the bound by intention.
   if (!task.bound || cavity.status != CavityStatus::Found || task.weights.smoothness > 0.0) {
     return false;
   }
-  return gapToBound(*task.bound, inputBody(task), hollowBody(task, cavity)) > kFarFromBound;
+  return cavity.roughEnds > 0 ||
+         gapToBound(*task.bound, inputBody(task), hollowBody(task, cavity)) > kFarFromBound;
+}
+
+/// Whether the one of two cavities of a task with a bound is to be delivered: that which serves
+/// better, but smoother ends may cost as much of what is possible as they may cost of the gain.
+bool isPreferred(const CavityTask& task, const CavityResult& a, const CavityResult& b) {
+  const bool isBetter = servesBetter(task, a, b);
+  const CavityResult& better = isBetter ? a : b;
+  const CavityResult& other = isBetter ? b : a;
+  if (other.status != CavityStatus::Found || other.roughEnds >= better.roughEnds) return isBetter;
+  const Body body = hollowBody(task, better);
+  const Body smoother = hollowBody(task, other);
+  if (body.violation <= kFeasibility && smoother.violation > kFeasibility) return isBetter;
+  const Body solid = inputBody(task);
+  const double loss =
+      gapToBound(*task.bound, solid, smoother) - gapToBound(*task.bound, solid, body);
+  return isBetter == (loss > kMostLossOfSmoothEnds);
 }
 
 /// For the task's fillings as they are.
@@ -37,12 +55,12 @@ CavityResult bestOfSearches(const CavityTask& task, const Redirected& steeper,
     effort += best.effort;
   }
   best = withSmoothCaps(task, best);
-  if (isFarFromBound(task, best)) {
+  if (mayBeImproved(task, best)) {
     CavityTask redirected = steeper();
     redirected.model.fillings = task.model.fillings;
     const CavityResult steep = withSmoothCaps(redirected, searchCavity(redirected, progress));
     effort += steep.effort;
-    if (servesBetter(task, steep, best)) best = steep;
+    if (isPreferred(task, steep, best)) best = steep;
   }
   best.effort = effort;
   return best;

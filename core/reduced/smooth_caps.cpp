@@ -94,6 +94,8 @@ TriangleMesh withOtherTriangles(const Points& vertices, const Faces& kept,
 
 /// Least volume of a component that is worth printing, in cubes of the wall.
 constexpr double kSpeck = 8.0;
+/// Of smooth ends.
+constexpr int kKinds = 2;
 /// Of many ends some always are faulty, and to try all again takes long.
 constexpr int kFewEnds = 8;
 
@@ -113,6 +115,9 @@ public:
   bool wasTooDear() const { return wasTooDear_; } ///< an end, for `mostLoss`
 
 private:
+  std::optional<CavityResult> smoothTogether();
+  void smoothOneByOne(CavityResult& best);
+  void widen(int number);
   End kindOf(int end) const;
   bool isAt(End kind, int vertex) const;
   Marks bridges() const;
@@ -159,6 +164,7 @@ private:
   bool keepsVolume(const CavityResult& result) const;
   bool isWorthIt(const CavityResult& result) const;
   bool giveUp(const CavityResult& result, const std::vector<int>& end);
+  double mostLoss(double gain, double possible) const;
   Loss lossOf(const Body& before, const Body& after) const;
   Body bodyWith(const Moments& cavity) const;
   void giveUpCostliest(const CavityResult& result, const std::vector<int>& end);
@@ -198,7 +204,7 @@ Capping::Capping(const CavityTask& task, const CavityResult& found, double mostL
 /// A bridge stays one if it can; everything else is closed if it can.
 End Capping::kindOf(int end) const {
   const int givenUp = givenUp_[at(end)];
-  if (givenUp > 1) return End::AsFound;
+  if (givenUp >= kKinds) return End::AsFound;
   return (givenUp == 1) == (isBridge_[at(end)] != 0) ? End::Cap : End::Faired;
 }
 
@@ -256,6 +262,17 @@ bool Capping::tryOtherwise() {
 }
 
 CavityResult Capping::run() {
+  CavityResult best = found_;
+  best.roughEnds = ends_.count;
+  if (std::optional<CavityResult> together = smoothTogether()) best = std::move(*together);
+  const bool mayCostMore =
+      wasTooDear_ && hasFewEnds() && mostLoss_ < kMostLossOfSmoothEnds; // is next
+  if (best.roughEnds > 0 && !mayCostMore) smoothOneByOne(best);
+  return best;
+}
+
+/// What is wrong at one end stays as it was, and the others are tried again.
+std::optional<CavityResult> Capping::smoothTogether() {
   constexpr int kAttempts = 8;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     if (roughEnds() == ends_.count) break;
@@ -277,9 +294,58 @@ CavityResult Capping::run() {
       break;
     }
   }
-  CavityResult rough = found_;
-  rough.roughEnds = ends_.count;
-  return rough;
+  std::fill(givenUp_.begin(), givenUp_.end(), kKinds);
+  return {};
+}
+
+/// Ends that stayed as they were, each in every way while the others stay as they are, and where
+/// none will do cut back to where the surface is less folded.
+void Capping::smoothOneByOne(CavityResult& best) {
+  constexpr int kTimesWider = 2;
+  constexpr int kMostTries = 64;
+  int tries = 0;
+  for (std::size_t end = 0; end < givenUp_.size(); ++end) {
+    int& givenUp = givenUp_[end];
+    if (givenUp < kKinds) continue;
+    const CavityEnds before = ends_;
+    bool isSmooth = false;
+    for (int wider = 0; wider <= kTimesWider && !isSmooth; ++wider) {
+      if (wider > 0) widen(static_cast<int>(end));
+      for (givenUp = 0; givenUp < kKinds && !isSmooth && tries < kMostTries; ++tries) {
+        std::optional<Inspected> tried = inspected(opened());
+        isSmooth = tried && tried->isGood;
+        if (isSmooth) best = std::move(tried->result);
+        if (!isSmooth) ++givenUp;
+      }
+    }
+    if (isSmooth) continue;
+    givenUp = kKinds;
+    ends_ = before;
+  }
+  best.roughEnds = roughEnds();
+}
+
+/// An end by two rings of neighbours.
+void Capping::widen(int number) {
+  constexpr int kRings = 2;
+  for (int ring = 0; ring < kRings; ++ring) {
+    const CavityEnds before = ends_;
+    const auto isFree = [&](int v) {
+      const IndexRange around = neighbours_[at(v)];
+      return found_.cavity.solid[at(v)] == 0 &&
+             std::all_of(around.begin(), around.end(), [&](int w) {
+               return before.end[at(w)] < 0 || before.end[at(w)] == number;
+             });
+    };
+    for (std::size_t v = 0; v < before.end.size(); ++v) {
+      if (before.end[v] != number) continue;
+      ends_.turned[v] = 1;
+      ends_.fan[v] = 1;
+      for (const int w : neighbours_[v]) {
+        if (isFree(w)) ends_.end[at(w)] = number;
+      }
+    }
+  }
 }
 
 /// With smooth ends, of caps the first that are clean and worth it, of fans the best such, or else
@@ -325,7 +391,6 @@ std::optional<Capping::Inspected> Capping::inspected(const Capped& rough) {
 }
 
 int Capping::roughEnds() const {
-  constexpr int kKinds = 2;
   return static_cast<int>(std::count(givenUp_.begin(), givenUp_.end(), kKinds));
 }
 
@@ -421,7 +486,7 @@ std::vector<Capping::Stretched> Capping::stretched(Capped capped) const {
 /// not.
 std::optional<Capping::Closed> Capping::closed(const Stretched& caps,
                                                const Pressing& pressing) const {
-  constexpr int kRounds = 6;
+  constexpr int kRounds = 12;
   CavityResult result = caps.result;
   ClearanceQuery clearance(outer());
   Marks rests(at(result.inner.rows()), 0); // what keeps the wall already
@@ -434,14 +499,18 @@ std::optional<Capping::Closed> Capping::closed(const Stretched& caps,
       if (!press(*caps.skin, pressing, atWall, result)) return std::nullopt;
     }
     Points moved = result.inner;
+    // Each time by a little less, so that what has moved once is not moved again, which would upset
+    // the constraints for ever.
+    const double beyond = (kBeyondWall - 1.0) * (1.0 - round / (kRounds + 1.0));
     const bool isThin =
-        !keepWall(clearance, kBeyondWall * task_.wall, result.cavity.faces, moved, rests).empty();
+        !keepWall(clearance, (1.0 + beyond) * task_.wall, result.cavity.faces, moved, rests)
+             .empty();
     if (moved == result.inner) break;
     for (Eigen::Index v = n_; v < moved.rows(); ++v) {
       if (moved.row(v) != result.inner.row(v)) atWall[at(v)] = 1;
     }
     result.inner = std::move(moved);
-    if (isThin) break; // the ends where it is are given up: more rounds are slow and in vain
+    if (isThin && keepsConstraints(result)) break; // more rounds are slow and in vain
   }
   result.inner = task_.deliverable(result.inner);
   return Closed{std::move(result), isPressed};
@@ -516,20 +585,35 @@ bool Capping::keepsVolume(const CavityResult& result) const {
 
 Capping::Loss Capping::lossOf(const Body& before, const Body& after) const {
   const Body solid = inputBody(task_);
+  const OptimalBound* bound = task_.bound ? &*task_.bound : nullptr;
   if (before.measure && after.measure && solid.measure) {
-    const double most = mostLoss_ * std::abs(*before.measure - *solid.measure);
+    const double possible =
+        bound && bound->measure ? std::abs(*bound->measure - *solid.measure) : 0.0;
+    const double most = mostLoss(std::abs(*before.measure - *solid.measure), possible);
     const double beyond = *before.measure - task_.goal.wantedLevel();
     return {*before.measure - *after.measure, beyond >= 0.0 ? std::min(most, beyond) : most};
   }
+  const double possible = bound ? std::abs(bound->objective - solid.momentObjective) : 0.0;
   return {after.objective - before.objective,
-          mostLoss_ * std::abs(solid.objective - before.objective)};
+          mostLoss(std::abs(solid.objective - before.objective), possible)};
+}
+
+/// `gain`: over the solid body, of the cavity; `possible`: of the best one, 0 where that is not
+/// known.
+double Capping::mostLoss(double gain, double possible) const {
+  constexpr double kMostOfGain = 0.5;
+  if (mostLoss_ < kMostLossOfSmoothEnds) return mostLoss_ * gain;
+  return std::max(mostLoss_ * gain, std::min(mostLoss_ * possible, kMostOfGain * gain));
 }
 
 bool Capping::isWorthIt(const CavityResult& result) const {
   if (!keepsVolume(result)) return false;
   const Body before = hollowBody(task_, found_);
   const Body after = hollowBody(task_, result);
-  if (task_.weights.constraints > 0.0 && after.violation > mostViolation_) return false;
+  if (task_.weights.constraints > 0.0) {
+    if (after.violation > mostViolation_) return false;
+    if (before.violation > kFeasibility) return true; // what a missed goal lacks counts alone
+  }
   const Loss loss = lossOf(before, after);
   return loss.is <= loss.most;
 }
@@ -609,7 +693,7 @@ CavityResult withSmoothCaps(const CavityTask& task, const CavityResult& found) {
   if (found.status != CavityStatus::Found || task.open != nullptr || found.cavity.faces.rows() == 0)
     return found;
   // What costs more is made only where nothing else does.
-  constexpr std::array<double, 3> kMostLoss{0.02, 0.05, 0.1};
+  constexpr std::array<double, 3> kMostLoss{0.02, 0.05, kMostLossOfSmoothEnds};
   CavityResult best;
   for (const double mostLoss : kMostLoss) {
     Capping capping(task, found, mostLoss);
