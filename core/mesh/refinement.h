@@ -14,7 +14,8 @@ TriangleMesh refined(const Points& vertices, const Faces& faces, double edge);
 /// A part of a surface with triangles of one size, that of its border's edges, near where it was
 /// [BK04]. `patch`: the faces around the part, every vertex used, and from row `first` on its own.
 /// The vertices of the patch come first and unchanged, those inside of the part without a use; the
-/// faces are those of the part; none where the patch is no manifold or they would be far too many.
+/// faces are those of the part; none where the patch is no manifold or they would be more than
+/// 20,000.
 TriangleMesh remeshedPart(const TriangleMesh& patch, Eigen::Index first);
 
 /// Length of the longest edge.

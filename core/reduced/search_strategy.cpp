@@ -17,6 +17,7 @@ namespace {
 /// Above this gap another search, with other directions, is worth its time.
 constexpr double kFarFromBound = 0.02;
 
+/// Whether such a search is worth its time, for the gap or for ends that stay pleated.
 bool mayBeImproved(const CavityTask& task, const CavityResult& cavity) {
   // With a weight on smoothness the best body is far from the bound by intention.
   if (!task.bound || cavity.status != CavityStatus::Found || task.weights.smoothness > 0.0) {
@@ -26,8 +27,8 @@ bool mayBeImproved(const CavityTask& task, const CavityResult& cavity) {
          gapToBound(*task.bound, inputBody(task), hollowBody(task, cavity)) > kFarFromBound;
 }
 
-/// Whether the one of two cavities of a task with a bound is to be delivered: that which serves
-/// better, but smoother ends may cost as much of what is possible as they may cost of the gain.
+/// Whether to deliver the first of two cavities of a task with a bound: the one that serves better,
+/// or the one with fewer pleated ends where these cost no more than `kMostLossOfSmoothEnds`.
 bool isPreferred(const CavityTask& task, const CavityResult& a, const CavityResult& b) {
   const bool isBetter = servesBetter(task, a, b);
   const CavityResult& better = isBetter ? a : b;

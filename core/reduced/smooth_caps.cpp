@@ -94,7 +94,7 @@ TriangleMesh withOtherTriangles(const Points& vertices, const Faces& kept,
 
 /// Least volume of a component that is worth printing, in cubes of the wall.
 constexpr double kSpeck = 8.0;
-/// Of smooth ends.
+/// Ways to make an end smooth.
 constexpr int kKinds = 2;
 /// Of many ends some always are faulty, and to try all again takes long.
 constexpr int kFewEnds = 8;
