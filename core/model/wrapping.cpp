@@ -127,9 +127,9 @@ public:
     return {nearest.x(), nearest.y(), nearest.z()};
   }
 
-  double operator()(const Point& p) const {
-    return std::sqrt(surface_.nearest(at(p)).squaredDistance);
-  }
+  double squared_distance(const Point& p) const { return surface_.nearest(at(p)).squaredDistance; }
+
+  double operator()(const Point& p) const { return std::sqrt(squared_distance(p)); }
 
   bool first_intersection(const Point& p, const Point& q, Point& first, double offset) const {
     constexpr double kPrecision = 0.01; // CGAL's own
