@@ -3,6 +3,7 @@
 #include "core/base/parallel.h"
 #include "core/contour/region.h"
 #include "core/overhang/layer_distance.h"
+#include "core/query/grid_sampling.h"
 #include "core/query/point_in_mesh.h"
 #include "core/query/triangle_tree.h"
 
@@ -17,76 +18,10 @@
 namespace massprops {
 namespace {
 
-/// Values are known up to so many edges from where they vanish.
-constexpr float kBand = 4.0F;
+constexpr float kBand = kSampledBand;
 
 std::size_t at(Eigen::Index i) {
   return static_cast<std::size_t>(i);
-}
-
-/// Around the surface, a few nodes more on each side.
-Grid gridAround(const TriangleTree& surface, const Mat3& rotation, double edge) {
-  constexpr double kMargin = 3.0;
-  const Points turned = surface.vertices() * rotation.transpose();
-  const Vec3 low = turned.colwise().minCoeff().transpose();
-  const Vec3 high = turned.colwise().maxCoeff().transpose();
-  Grid grid;
-  grid.rotation = rotation;
-  grid.edge = edge;
-  grid.origin = low - Vec3::Constant(kMargin * edge);
-  grid.counts =
-      ((high - low) / edge).array().ceil().cast<int>() + 2 * static_cast<int>(kMargin) + 1;
-  return grid;
-}
-
-/// A signed length at a point, exact up to a horizon.
-using Length = std::function<double(const Vec3& x, double horizon)>;
-
-/// Values at the nodes of a block, by halves where they vanish.
-class BlockSampler {
-public:
-  BlockSampler(Length length, const Grid& grid, std::vector<float>& values)
-      : length_(std::move(length)), grid_(grid), values_(values) {}
-
-  void visit(const Eigen::Array3i& low, int size) {
-    const Eigen::Array3i high = (low + size).min(grid_.counts);
-    if ((high <= low).any()) return;
-    const int half = size / 2;
-    const Eigen::Array3i middle = (low + half).min(grid_.counts - 1);
-    const double radius = std::sqrt(3.0) * half;
-    const double value = length_(grid_.positionOf(middle.x(), middle.y(), middle.z()),
-                                 (radius + kBand) * grid_.edge) /
-                         grid_.edge;
-    if (size == 1 || std::abs(value) >= radius + kBand) {
-      const float kept = std::clamp(static_cast<float>(value), -kBand, kBand);
-      for (int k = low.z(); k < high.z(); ++k) {
-        for (int j = low.y(); j < high.y(); ++j) {
-          std::fill_n(values_.begin() + grid_.nodeAt(low.x(), j, k), high.x() - low.x(), kept);
-        }
-      }
-      return;
-    }
-    for (int i = 0; i < 8; ++i) visit(low + half * Eigen::Array3i(i & 1, i >> 1 & 1, i >> 2), half);
-  }
-
-private:
-  Length length_;
-  const Grid& grid_;
-  std::vector<float>& values_;
-};
-
-/// Of every node of the grid, at most `kBand` edges. `makeLength`: for each block anew, for it may
-/// remember the last one.
-void sample(const Grid& grid, const std::function<Length()>& makeLength,
-            std::vector<float>& values) {
-  constexpr int kBlock = 16;
-  const Eigen::Array3i blocks = (grid.counts + kBlock - 1) / kBlock;
-  forChunks(blocks.prod(), 1, [&](const Chunk& chunk) {
-    const auto n = static_cast<int>(chunk.number);
-    const Eigen::Array3i block(n % blocks.x(), n / blocks.x() % blocks.y(),
-                               n / (blocks.x() * blocks.y()));
-    BlockSampler(makeLength(), grid, values).visit(kBlock * block, kBlock);
-  });
 }
 
 /// How deep points are in a closed outward surface.
@@ -418,30 +353,27 @@ private:
 } // namespace
 
 SupportingFill::SupportingFill(const OpenedSet& set, const OverhangWishes& wishes)
-    : set_(set), grid_(gridAround(set.surface, wishes.toPrint, wishes.edge * wishes.bridge)),
+    : set_(set),
+      grid_(gridAround(set.surface.vertices(), wishes.toPrint, wishes.edge * wishes.bridge)),
       run_(static_cast<float>(1.0 / std::tan(wishes.angle))) {
   constexpr double kMostNodes = 3e6; // what is coarser has wider spans
   const auto nodes = static_cast<double>(grid_.nodes());
   if (nodes > kMostNodes)
-    grid_ = gridAround(set.surface, wishes.toPrint, grid_.edge * std::cbrt(nodes / kMostNodes));
+    grid_ = gridAround(set.surface.vertices(), wishes.toPrint,
+                       grid_.edge * std::cbrt(nodes / kMostNodes));
   halfThickness_ = static_cast<float>(wishes.halfThickness * std::max(set.edge / grid_.edge, 1.0));
-  inset_.assign(at(grid_.nodes()), -kBand);
   fill_.assign(at(grid_.nodes()), kBand);
   const Region region{set_.surface, set_.wall, set_.opening};
-  sample(
-      grid_,
-      [&] {
-        return [probe = InsetProbe(region)](const Vec3& x, double horizon) mutable {
-          return probe.at(x, horizon).value;
-        };
-      },
-      inset_);
+  inset_ = sampled(grid_, [&] {
+    return [probe = InsetProbe(region)](const Vec3& x, double horizon) mutable {
+      return probe.at(x, horizon).value;
+    };
+  });
 }
 
 void SupportingFill::keepWithin(const TriangleMesh& cavity) {
   const TriangleTree surface(cavity.vertices, cavity.faces);
-  sample(
-      grid_, [&] { return Depth(surface); }, fill_);
+  fill_ = sampled(grid_, [&] { return Depth(surface); });
 }
 
 void SupportingFill::allowPillars(double spacing) {
