@@ -9,6 +9,7 @@
 #include "core/base/parallel.h"
 #include "core/base/tolerances.h"
 #include "core/best/best_cavity.h"
+#include "core/best/rounded_ends.h"
 #include "core/goals/registry.h"
 #include "core/mesh/components.h"
 #include "core/model/frame.h"
@@ -314,7 +315,7 @@ std::string reasonForBestPossible(const Options& options, const OptimalBound& bo
   // With a weight on smoothness it is far by intention.
   if (options.weights.smoothness == 0.0) {
     if (gap > kFar) return "the offset surface leaves " + percent(gap) + " % of what is possible";
-    if (found.cavity.roughEnds > 0) return "ends of the offset surface stay pleated";
+    if (found.cavity.pleatedEnds > 0) return "ends of the offset surface stay pleated";
   }
   return isMissed ? missed : "";
 }
@@ -344,6 +345,38 @@ struct Moved {
     task.stored = search.stored;
     return task;
   }
+};
+
+/// What is possible within the outer surface as a search left it.
+class Room {
+public:
+  Room(const Preparation& model, const Foundation& foundation, const Options& options,
+       const Search& found)
+      : model_(model), foundation_(foundation) {
+    if (!moves(options)) return;
+    const bool hasMoved = found.cavity.status == CavityStatus::Found;
+    moved_.emplace(model, found.task, hasMoved ? found.cavity.outer : model.posed.vertices);
+    std::optional<Possible> possible = possibleWithin(
+        moved_->surface, model.posed.wall, moved_->goal(found.task), moved_->solidMoments, options);
+    if (possible) possible_.emplace(*std::move(possible));
+  }
+
+  /// Null: it is not known.
+  const Possible* possible() const {
+    const std::optional<Possible>& known = moved_ ? possible_ : foundation_.possible;
+    return known ? &*known : nullptr;
+  }
+  const TriangleTree& surface() const { return moved_ ? moved_->surface : model_.surface; }
+  /// The search's, as one whose outer surface rests. \pre what is possible is known
+  CavityTask task(const CavityTask& search) const {
+    return moved_ ? moved_->task(search, *possible()) : search;
+  }
+
+private:
+  const Preparation& model_;
+  const Foundation& foundation_;
+  std::optional<Moved> moved_;
+  std::optional<Possible> possible_; ///< within what moved
 };
 
 /// In the worst of the states that the verdict goes by and no quadric knows; empty: there are none.
@@ -409,6 +442,7 @@ void carryCeilings(const Preparation& model, const Foundation& foundation, const
   takeLevels(foundation.possible->bound, found);
   const TriangleMesh offsets = submesh(found.cavity.inner, found.cavity.cavity.faces).mesh;
   CavityResult cavity = carriedCavity(model, *foundation.possible, options, &offsets, found.task);
+  cavity.shape = CavityShape::Offset;
   cavity.effort += found.cavity.effort;
   found.cavity = std::move(cavity);
   judge(model, options, found);
@@ -427,16 +461,9 @@ void considerBestPossible(const Preparation& model, const Foundation& foundation
     return;
   }
   const bool hasMoved = moves(options) && found.cavity.status == CavityStatus::Found;
-  const std::unique_ptr<const Moved> moved =
-      moves(options) ? std::make_unique<const Moved>(
-                           model, found.task, hasMoved ? found.cavity.outer : model.posed.vertices)
-                     : nullptr;
-  const std::optional<Possible> possibleInMoved =
-      moved ? possibleWithin(moved->surface, model.posed.wall, moved->goal(found.task),
-                             moved->solidMoments, options)
-            : std::nullopt;
-  const std::optional<Possible>& possible = moved ? possibleInMoved : foundation.possible;
-  if (!possible) {
+  const Room room(model, foundation, options, found);
+  const Possible* possible = room.possible();
+  if (possible == nullptr) {
     found.shapeReason = "what is possible is not known";
     return;
   }
@@ -446,14 +473,14 @@ void considerBestPossible(const Preparation& model, const Foundation& foundation
   bar.show(Schedule::kEnd, "Best possible cavity");
   takeLevels(possible->bound, found);
   CavityResult best;
-  if (moved) {
-    best = bestPossibleCavity(moved->task(found.task, *possible), possible->deliverable);
-    best.outer = moved->surface.vertices();
-    best.outerOffsets = found.cavity.outerOffsets;
+  if (options.overhangAngle > 0.0 && !moves(options)) {
+    best = carriedCavity(model, *possible, options, nullptr, found.task);
   } else {
-    best = options.overhangAngle > 0.0
-               ? carriedCavity(model, *possible, options, nullptr, found.task)
-               : bestPossibleCavity(found.task, possible->deliverable);
+    best = bestPossibleCavity(room.task(found.task), possible->deliverable);
+    if (moves(options)) {
+      best.outer = room.surface().vertices();
+      best.outerOffsets = found.cavity.outerOffsets;
+    }
   }
   best.effort += found.cavity.effort;
   if ((movesInwards(model, options) || hasMoved) && !servesBetter(found.task, best, found.cavity)) {
@@ -474,6 +501,24 @@ void considerBestPossible(const Preparation& model, const Foundation& foundation
   found.shapeReason = "the best possible cavity serves less while its rooms are filled";
 }
 
+/// Where ends of an offset surface stayed pleated.
+void roundEnds(const Preparation& model, const Foundation& foundation, const Options& options,
+               ProgressBar& bar, Search& found) {
+  const CavityResult& cavity = found.cavity;
+  const bool isThere = cavity.status == CavityStatus::Found ||
+                       (cavity.status == CavityStatus::NoGain && !moves(options));
+  if (!isThere || cavity.shape != CavityShape::Offset || cavity.pleatedEnds == 0) return;
+  bar.show(Schedule::kEnd, "Round ends");
+  const Room room(model, foundation, options, found);
+  if (room.possible() == nullptr) return;
+  const Possible& possible = *room.possible();
+  takeLevels(possible.bound, found);
+  const RegionParts behindWalls = resolvedParts(room.surface(), model.posed.wall);
+  found.cavity = withRoundedEnds(
+      room.task(found.task), {possible.deliverable, behindWalls, possible.states}, found.cavity);
+  judge(model, options, found);
+}
+
 Search bestOfShapes(const Preparation& model, const Foundation& foundation, const Options& options,
                     OffsetSearch when, ProgressBar& bar) {
   Search result = movesInwards(model, options)
@@ -482,6 +527,7 @@ Search bestOfShapes(const Preparation& model, const Foundation& foundation, cons
   result.verdictBefore = makeVerdict(options, model.posed, model.posed.vertices);
   judge(model, options, result);
   considerBestPossible(model, foundation, options, bar, result);
+  roundEnds(model, foundation, options, bar, result);
   return result;
 }
 

@@ -66,7 +66,7 @@ Delivery deliver(const Solid& solid, const PosedModel& posed, const CavityTask& 
     }
     return result;
   }
-  if (cavity.shape == CavityShape::Offset) {
+  if (!cavity.isContour) {
     deliverOffsetSurface(solid, posed, task, cavity, vertexOf, representable, result);
   } else {
     // Vertices of what was filled are left out.

@@ -388,11 +388,8 @@ int solidVertices(const CavityTask& task, const CavityResult& cavity) {
   return static_cast<int>(std::count(mark.begin(), mark.end(), 1));
 }
 
-/// An offset surface is one, too, when its ceilings have been filled.
-std::string shapeOf(const CavityResult& cavity, const Options& options) {
-  const bool isOffset =
-      cavity.shape == CavityShape::Offset || options.cavityShape == CavityShape::Offset;
-  return isOffset ? "offset surface: " : "best possible: ";
+std::string shapeOf(const CavityResult& cavity) {
+  return cavity.shape == CavityShape::Offset ? "offset surface: " : "best possible: ";
 }
 
 /// What the answer cost.
@@ -497,8 +494,7 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Ve
   report.add("rounding_step", stages.rounding);
   report.add("cavity_components", hollow ? cavity.inspection.components : 0);
   report.add("cavity_triangles", hollow ? static_cast<int>(trianglesOf(posed, cavity)) : 0);
-  if (hollow && cavity.shape == CavityShape::BestPossible)
-    report.add("cavity_slivers", sliversOf(cavity));
+  if (hollow && cavity.isContour) report.add("cavity_slivers", sliversOf(cavity));
   if (cavity.status == CavityStatus::NoRoom) {
     report.add("largest_wall", stages.largestWall * posed.frame.length);
     report.add("seconds_largest_wall", stages.secondsLargestWall);
@@ -506,11 +502,10 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Ve
   addRepairs(stages.repairs, report);
   report.add("skeleton_failures", stages.skeletonFailures);
   if (posed.open) report.add("openings", posed.open->openings);
-  if (hasCavity) report.add("cavity_shape", shapeOf(cavity, options) + stages.shapeReason);
-  if (cavity.shape == CavityShape::Offset) {
-    report.add("solid_vertices", solidVertices(task, cavity));
-    if (hasCavity) report.add("pleated_ends", cavity.roughEnds);
-  }
+  if (hasCavity) report.add("cavity_shape", shapeOf(cavity) + stages.shapeReason);
+  if (!cavity.isContour) report.add("solid_vertices", solidVertices(task, cavity));
+  if (hasCavity && cavity.shape == CavityShape::Offset)
+    report.add("pleated_ends", cavity.pleatedEnds);
   addEffort(cavity, stages, report);
   return report;
 }

@@ -69,6 +69,7 @@ constexpr double kSliver = 5.0; // degrees
 CavityResult resultOf(Points inner, const Faces& faces, Inspection inspection) {
   CavityResult result;
   result.shape = CavityShape::BestPossible;
+  result.isContour = true;
   result.status = CavityStatus::Found;
   result.inner = std::move(inner);
   result.cavity.faces = faces;

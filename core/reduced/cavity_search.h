@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace massprops {
 
@@ -63,8 +64,11 @@ struct CavityResult {
   Points outer;                      ///< of the outer surface, moved or not
   CavitySurface cavity;              ///< over `inner`; no faces: nothing can be hollowed
   Vector innerOffsets, outerOffsets; ///< of an offset surface
-  int roughEnds = 0;                 ///< of an offset surface: those that stay pleated
-  double edge = 0.0;                 ///< of a best possible cavity's cubes, working length
+  int pleatedEnds = 0;               ///< of an offset surface: those that are not smooth
+  std::vector<int> pleated;          ///< their vertices
+  /// Made of cubes: the rows of `inner` are the cavity's vertices, as it needs them.
+  bool isContour = false;
+  double edge = 0.0; ///< of the cubes, working length; 0: of several
   /// Null, or what remembers the distances from the outer surface, which rests.
   std::shared_ptr<ClearanceQuery> clearance;
   Inspection inspection;

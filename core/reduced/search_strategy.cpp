@@ -1,6 +1,5 @@
 #include "core/reduced/search_strategy.h"
 
-#include "core/base/tolerances.h"
 #include "core/reduced/hollow_body.h"
 #include "core/reduced/smooth_caps.h"
 
@@ -17,30 +16,12 @@ namespace {
 /// Above this gap another search, with other directions, is worth its time.
 constexpr double kFarFromBound = 0.02;
 
-/// Whether such a search is worth its time, for the gap or for ends that stay pleated.
-bool mayBeImproved(const CavityTask& task, const CavityResult& cavity) {
+bool isFarFromBound(const CavityTask& task, const CavityResult& cavity) {
   // With a weight on smoothness the best body is far from the bound by intention.
   if (!task.bound || cavity.status != CavityStatus::Found || task.weights.smoothness > 0.0) {
     return false;
   }
-  return cavity.roughEnds > 0 ||
-         gapToBound(*task.bound, inputBody(task), hollowBody(task, cavity)) > kFarFromBound;
-}
-
-/// Whether to deliver the first of two cavities of a task with a bound: the one that serves better,
-/// or the one with fewer pleated ends where these cost no more than `kMostLossOfSmoothEnds`.
-bool isPreferred(const CavityTask& task, const CavityResult& a, const CavityResult& b) {
-  const bool isBetter = servesBetter(task, a, b);
-  const CavityResult& better = isBetter ? a : b;
-  const CavityResult& other = isBetter ? b : a;
-  if (other.status != CavityStatus::Found || other.roughEnds >= better.roughEnds) return isBetter;
-  const Body body = hollowBody(task, better);
-  const Body smoother = hollowBody(task, other);
-  if (body.violation <= kFeasibility && smoother.violation > kFeasibility) return isBetter;
-  const Body solid = inputBody(task);
-  const double loss =
-      gapToBound(*task.bound, solid, smoother) - gapToBound(*task.bound, solid, body);
-  return isBetter == (loss > kMostLossOfSmoothEnds);
+  return gapToBound(*task.bound, inputBody(task), hollowBody(task, cavity)) > kFarFromBound;
 }
 
 /// For the task's fillings as they are.
@@ -56,12 +37,12 @@ CavityResult bestOfSearches(const CavityTask& task, const Redirected& steeper,
     effort += best.effort;
   }
   best = withSmoothCaps(task, best);
-  if (mayBeImproved(task, best)) {
+  if (isFarFromBound(task, best)) {
     CavityTask redirected = steeper();
     redirected.model.fillings = task.model.fillings;
     const CavityResult steep = withSmoothCaps(redirected, searchCavity(redirected, progress));
     effort += steep.effort;
-    if (isPreferred(task, steep, best)) best = steep;
+    if (servesBetter(task, steep, best)) best = steep;
   }
   best.effort = effort;
   return best;

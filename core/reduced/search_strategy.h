@@ -13,8 +13,7 @@ using Redirected = std::function<CavityTask()>;
 
 /// The best cavity of up to three searches: the second without a start near the bound's cavity,
 /// where the first serves the goal no better than the solid; the third along `steeper` directions,
-/// where much of what is possible is left or ends of the cavity stay pleated; the smoother of the
-/// two may cost `kMostLossOfSmoothEnds`. Where the body is to serve the goal with different
+/// where much of what is possible is left. Where the body is to serve the goal with different
 /// contents, and serves it worse with these up to a level between, that level becomes one of the
 /// task's fillings and the searches are repeated, as long as that helps. Their effort is added up.
 /// Status NoGain: there is a cavity, but the solid body serves the goal at least as well.

@@ -16,7 +16,6 @@
 #include "core/reduced/hollow_body.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <memory>
@@ -97,32 +96,28 @@ constexpr double kSpeck = 8.0;
 /// Ways to make an end smooth.
 constexpr int kKinds = 2;
 /// Of many ends some always are faulty, and to try all again takes long.
-constexpr int kFewEnds = 8;
+constexpr int kMostEnds = 8;
+/// Of what the cavity gains over the solid body, that smooth ends may cost.
+constexpr double kMostLoss = 0.02;
 
 /// Of the constraints; where the cavity cannot keep them, more than its own by a share of its gain.
-double mostViolation(const CavityTask& task, const Body& found, double mostLoss) {
+double mostViolation(const CavityTask& task, const Body& found) {
   if (found.violation <= kFeasibility) return kFeasibility;
   const double gain = inputBody(task).violation - found.violation;
-  return found.violation + mostLoss * std::max(gain, 0.0);
+  return found.violation + kMostLoss * std::max(gain, 0.0);
 }
 
 class Capping {
 public:
-  /// `mostLoss`: of what the cavity gains over the solid body, that smooth ends may cost.
-  Capping(const CavityTask& task, const CavityResult& found, double mostLoss);
+  Capping(const CavityTask& task, const CavityResult& found);
   CavityResult run();
-  bool hasFewEnds() const { return ends_.count <= kFewEnds; }
-  bool wasTooDear() const { return wasTooDear_; } ///< an end, for `mostLoss`
 
 private:
-  std::optional<CavityResult> smoothTogether();
-  void smoothOneByOne(CavityResult& best);
-  void widen(int number);
   End kindOf(int end) const;
   bool isAt(End kind, int vertex) const;
   Marks bridges() const;
   bool tryOtherwise();
-  int roughEnds() const;
+  void markPleated(CavityResult& result) const;
   /// What has not been inspected yet.
   struct Stretched {
     std::unique_ptr<const Skin> skin; ///< at the caps
@@ -164,14 +159,12 @@ private:
   bool keepsVolume(const CavityResult& result) const;
   bool isWorthIt(const CavityResult& result) const;
   bool giveUp(const CavityResult& result, const std::vector<int>& end);
-  double mostLoss(double gain, double possible) const;
   Loss lossOf(const Body& before, const Body& after) const;
   Body bodyWith(const Moments& cavity) const;
   void giveUpCostliest(const CavityResult& result, const std::vector<int>& end);
 
   const CavityTask& task_;
   const CavityResult& found_;
-  double mostLoss_;
   const Faces& faces_;
   Eigen::Index n_;
   std::unique_ptr<const TriangleTree> moved_; ///< null: the outer surface rests
@@ -185,18 +178,17 @@ private:
   /// many kinds of smooth ends were given up.
   Marks isBridge_;
   std::vector<int> givenUp_;
-  bool wasTooDear_ = false;
 };
 
-Capping::Capping(const CavityTask& task, const CavityResult& found, double mostLoss)
-    : task_(task), found_(found), mostLoss_(mostLoss), faces_(task.model.surface->faces),
+Capping::Capping(const CavityTask& task, const CavityResult& found)
+    : task_(task), found_(found), faces_(task.model.surface->faces),
       n_(task.model.surface->vertices.rows()),
       moved_(task.model.outer ? std::make_unique<const TriangleTree>(
                                     found.outer, task.surface.faces(), TriangleTree::Order::Spatial)
                               : nullptr),
       movedGoal_(task.goalFor ? task.goalFor(found.outer) : nullptr),
       outerMass_(outerMoments(task, found)),
-      mostViolation_(mostViolation(task, hollowBody(task, found), mostLoss)),
+      mostViolation_(mostViolation(task, hollowBody(task, found))),
       neighbours_(vertexAdjacency(n_, faces_)), corners_(vertexCorners(n_, faces_)),
       ends_(cavityEnds(task, found, neighbours_)), isBridge_(bridges()),
       givenUp_(at(ends_.count), 0) {}
@@ -261,31 +253,22 @@ bool Capping::tryOtherwise() {
   return false;
 }
 
-CavityResult Capping::run() {
-  CavityResult best = found_;
-  best.roughEnds = ends_.count;
-  if (std::optional<CavityResult> together = smoothTogether()) best = std::move(*together);
-  const bool mayCostMore =
-      wasTooDear_ && hasFewEnds() && mostLoss_ < kMostLossOfSmoothEnds; // is next
-  if (best.roughEnds > 0 && !mayCostMore) smoothOneByOne(best);
-  return best;
-}
-
 /// What is wrong at one end stays as it was, and the others are tried again.
-std::optional<CavityResult> Capping::smoothTogether() {
+CavityResult Capping::run() {
   constexpr int kAttempts = 8;
-  for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    if (roughEnds() == ends_.count) break;
+  for (int attempt = 0; attempt < kAttempts && ends_.count <= kMostEnds; ++attempt) {
+    const bool isAnyLeft =
+        std::any_of(givenUp_.begin(), givenUp_.end(), [](int givenUp) { return givenUp < kKinds; });
+    if (!isAnyLeft) break;
     const Capped rough = opened();
     std::optional<Inspected> tried = inspected(rough);
     if (!tried) {
-      wasTooDear_ |= mostViolation_ > kFeasibility;
       if (!tryOtherwise()) break;
       continue;
     }
     if (tried->isGood) {
       if (auto other = withBridgesClosed(tried->result)) tried = std::move(other);
-      tried->result.roughEnds = roughEnds();
+      markPleated(tried->result);
       return std::move(tried->result);
     }
     if (tried->result.inspection.isClean()) {
@@ -295,57 +278,9 @@ std::optional<CavityResult> Capping::smoothTogether() {
     }
   }
   std::fill(givenUp_.begin(), givenUp_.end(), kKinds);
-  return {};
-}
-
-/// Ends that stayed as they were, each in every way while the others stay as they are, and where
-/// none will do cut back to where the surface is less folded.
-void Capping::smoothOneByOne(CavityResult& best) {
-  constexpr int kTimesWider = 2;
-  constexpr int kMostTries = 64;
-  int tries = 0;
-  for (std::size_t end = 0; end < givenUp_.size(); ++end) {
-    int& givenUp = givenUp_[end];
-    if (givenUp < kKinds) continue;
-    const CavityEnds before = ends_;
-    bool isSmooth = false;
-    for (int wider = 0; wider <= kTimesWider && !isSmooth; ++wider) {
-      if (wider > 0) widen(static_cast<int>(end));
-      for (givenUp = 0; givenUp < kKinds && !isSmooth && tries < kMostTries; ++tries) {
-        std::optional<Inspected> tried = inspected(opened());
-        isSmooth = tried && tried->isGood;
-        if (isSmooth) best = std::move(tried->result);
-        if (!isSmooth) ++givenUp;
-      }
-    }
-    if (isSmooth) continue;
-    givenUp = kKinds;
-    ends_ = before;
-  }
-  best.roughEnds = roughEnds();
-}
-
-/// An end by two rings of neighbours.
-void Capping::widen(int number) {
-  constexpr int kRings = 2;
-  for (int ring = 0; ring < kRings; ++ring) {
-    const CavityEnds before = ends_;
-    const auto isFree = [&](int v) {
-      const IndexRange around = neighbours_[at(v)];
-      return found_.cavity.solid[at(v)] == 0 &&
-             std::all_of(around.begin(), around.end(), [&](int w) {
-               return before.end[at(w)] < 0 || before.end[at(w)] == number;
-             });
-    };
-    for (std::size_t v = 0; v < before.end.size(); ++v) {
-      if (before.end[v] != number) continue;
-      ends_.turned[v] = 1;
-      ends_.fan[v] = 1;
-      for (const int w : neighbours_[v]) {
-        if (isFree(w)) ends_.end[at(w)] = number;
-      }
-    }
-  }
+  CavityResult result = found_;
+  markPleated(result);
+  return result;
 }
 
 /// With smooth ends, of caps the first that are clean and worth it, of fans the best such, or else
@@ -376,9 +311,8 @@ std::optional<Capping::Inspected> Capping::inspected(const Capped& rough) {
       result.inspection = inspect(result.inner, result.cavity.faces, outer(), task_.wall, false,
                                   LookFirst::ForAll, found_.clearance.get(), task_.stored);
       const bool isGood = result.inspection.isClean() && isWorthIt(result);
-      wasTooDear_ |= result.inspection.isClean() && !isGood;
       Inspected tried{std::move(result), isGood};
-      if ((isGood && !isAnyFaired) || !hasFewEnds()) return tried;
+      if (isGood && !isAnyFaired) return tried;
       if (isGood && (!best || servesBetter(task_, tried.result, best->result))) {
         best = std::move(tried);
       } else if (!first) {
@@ -390,8 +324,13 @@ std::optional<Capping::Inspected> Capping::inspected(const Capped& rough) {
   return first;
 }
 
-int Capping::roughEnds() const {
-  return static_cast<int>(std::count(givenUp_.begin(), givenUp_.end(), kKinds));
+/// The ends that stayed as they were.
+void Capping::markPleated(CavityResult& result) const {
+  result.pleatedEnds = static_cast<int>(std::count(givenUp_.begin(), givenUp_.end(), kKinds));
+  result.pleated.clear();
+  for (int v = 0; v < static_cast<int>(n_); ++v) {
+    if (isAt(End::AsFound, v)) result.pleated.push_back(v);
+  }
 }
 
 /// With other triangles at ends that are to be smooth, which they are not yet.
@@ -585,25 +524,13 @@ bool Capping::keepsVolume(const CavityResult& result) const {
 
 Capping::Loss Capping::lossOf(const Body& before, const Body& after) const {
   const Body solid = inputBody(task_);
-  const OptimalBound* bound = task_.bound ? &*task_.bound : nullptr;
   if (before.measure && after.measure && solid.measure) {
-    const double possible =
-        bound && bound->measure ? std::abs(*bound->measure - *solid.measure) : 0.0;
-    const double most = mostLoss(std::abs(*before.measure - *solid.measure), possible);
+    const double most = kMostLoss * std::abs(*before.measure - *solid.measure);
     const double beyond = *before.measure - task_.goal.wantedLevel();
     return {*before.measure - *after.measure, beyond >= 0.0 ? std::min(most, beyond) : most};
   }
-  const double possible = bound ? std::abs(bound->objective - solid.momentObjective) : 0.0;
   return {after.objective - before.objective,
-          mostLoss(std::abs(solid.objective - before.objective), possible)};
-}
-
-/// `gain`: over the solid body, of the cavity; `possible`: of the best one, 0 where that is not
-/// known.
-double Capping::mostLoss(double gain, double possible) const {
-  constexpr double kMostOfGain = 0.5;
-  if (mostLoss_ < kMostLossOfSmoothEnds) return mostLoss_ * gain;
-  return std::max(mostLoss_ * gain, std::min(mostLoss_ * possible, kMostOfGain * gain));
+          kMostLoss * std::abs(solid.objective - before.objective)};
 }
 
 bool Capping::isWorthIt(const CavityResult& result) const {
@@ -692,17 +619,7 @@ bool Capping::giveUp(const CavityResult& result, const std::vector<int>& end) {
 CavityResult withSmoothCaps(const CavityTask& task, const CavityResult& found) {
   if (found.status != CavityStatus::Found || task.open != nullptr || found.cavity.faces.rows() == 0)
     return found;
-  // What costs more is made only where nothing else does.
-  constexpr std::array<double, 3> kMostLoss{0.02, 0.05, kMostLossOfSmoothEnds};
-  CavityResult best;
-  for (const double mostLoss : kMostLoss) {
-    Capping capping(task, found, mostLoss);
-    CavityResult result = capping.run();
-    if (mostLoss == kMostLoss.front() || result.roughEnds < best.roughEnds)
-      best = std::move(result);
-    if (best.roughEnds == 0 || !capping.wasTooDear() || !capping.hasFewEnds()) break;
-  }
-  return best;
+  return Capping(task, found).run();
 }
 
 } // namespace massprops

@@ -5,15 +5,12 @@
 
 namespace massprops {
 
-/// Share of what is possible that smooth ends may cost; not more than half of the cavity's gain.
-constexpr double kMostLossOfSmoothEnds = 0.1;
-
 /// The cavity with smooth ends (docs/math.md "Ends of the offset surface"): the fans that run to
 /// the skeleton there go, and so do specks that hang on them alone. In their place come skins under
 /// tension, those first that serve the goal best, pressed until the constraints hold again. Where
 /// caps do not pass inspection, or cost the goal noticeably or exceed `greatestVolume`, fans are
-/// faired as they are, as those between two parts of a cavity are at once, and where that does not
-/// do either they are cut back. An end at which nothing will do stays as it was.
+/// faired as they are, as those between two parts of a cavity are at once. An end at which neither
+/// will do stays as it was, and so do all where there are very many.
 /// \pre the cavity passed inspection
 CavityResult withSmoothCaps(const CavityTask& task, const CavityResult& found);
 
