@@ -379,6 +379,13 @@ private:
   std::optional<Possible> possible_; ///< within what moved
 };
 
+/// Looked for once.
+const Room& roomFor(std::optional<Room>& known, const Preparation& model,
+                    const Foundation& foundation, const Options& options, const Search& found) {
+  if (!known) known.emplace(model, foundation, options, found);
+  return *known;
+}
+
 /// In the worst of the states that the verdict goes by and no quadric knows; empty: there are none.
 std::optional<double> worstMeasure(const Search& found) {
   const bool isFound = found.cavity.status == CavityStatus::Found;
@@ -450,7 +457,8 @@ void carryCeilings(const Preparation& model, const Foundation& foundation, const
 
 /// Takes it where it is asked for or serves better: within the outer surface as it has become.
 void considerBestPossible(const Preparation& model, const Foundation& foundation,
-                          const Options& options, ProgressBar& bar, Search& found) {
+                          const Options& options, ProgressBar& bar, std::optional<Room>& known,
+                          Search& found) {
   found.shapeReason = "as asked for";
   if (options.cavityShape == CavityShape::Offset) {
     if (options.overhangAngle > 0.0) carryCeilings(model, foundation, options, bar, found);
@@ -461,7 +469,7 @@ void considerBestPossible(const Preparation& model, const Foundation& foundation
     return;
   }
   const bool hasMoved = moves(options) && found.cavity.status == CavityStatus::Found;
-  const Room room(model, foundation, options, found);
+  const Room& room = roomFor(known, model, foundation, options, found);
   const Possible* possible = room.possible();
   if (possible == nullptr) {
     found.shapeReason = "what is possible is not known";
@@ -503,13 +511,13 @@ void considerBestPossible(const Preparation& model, const Foundation& foundation
 
 /// Where ends of an offset surface stayed pleated.
 void roundEnds(const Preparation& model, const Foundation& foundation, const Options& options,
-               ProgressBar& bar, Search& found) {
+               ProgressBar& bar, std::optional<Room>& known, Search& found) {
   const CavityResult& cavity = found.cavity;
   const bool isThere = cavity.status == CavityStatus::Found ||
                        (cavity.status == CavityStatus::NoGain && !moves(options));
   if (!isThere || cavity.shape != CavityShape::Offset || cavity.pleatedEnds == 0) return;
   bar.show(Schedule::kEnd, "Round ends");
-  const Room room(model, foundation, options, found);
+  const Room& room = roomFor(known, model, foundation, options, found);
   if (room.possible() == nullptr) return;
   const Possible& possible = *room.possible();
   takeLevels(possible.bound, found);
@@ -526,8 +534,9 @@ Search bestOfShapes(const Preparation& model, const Foundation& foundation, cons
                       : Search{taskOf(*model.goal, model, foundation, options), {}};
   result.verdictBefore = makeVerdict(options, model.posed, model.posed.vertices);
   judge(model, options, result);
-  considerBestPossible(model, foundation, options, bar, result);
-  roundEnds(model, foundation, options, bar, result);
+  std::optional<Room> known;
+  considerBestPossible(model, foundation, options, bar, known, result);
+  roundEnds(model, foundation, options, bar, known, result);
   return result;
 }
 

@@ -106,10 +106,13 @@ std::optional<double> lossOf(const CavityTask& task, const CavityResult& rounded
   if (before.measure && *before.measure >= wanted && *after.measure < wanted) return {};
   constexpr double kMostOfGain = 0.5;
   const Body solid = inputBody(task);
-  const double gap = gapToBound(*task.bound, solid, before);
-  const double loss = gapToBound(*task.bound, solid, after) - gap;
-  if (loss > kMostOfGain * (1.0 - gap)) return {};
-  return loss;
+  const auto loss = [&](const OptimalBound& bound) {
+    return gapToBound(bound, solid, after) - gapToBound(bound, solid, before);
+  };
+  OptimalBound raised = *task.bound;
+  raiseTo(task, before, raised); // in narrow rooms the limit may see less
+  if (loss(raised) > kMostOfGain * (1.0 - gapToBound(raised, solid, before))) return {};
+  return loss(*task.bound);
 }
 
 /// That a ball of this width finds its room in.
