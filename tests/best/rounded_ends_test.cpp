@@ -153,11 +153,13 @@ TEST_P(RoundedEndsOf, KeepTheWallAndTheConstraints) {
   EXPECT_EQ(std::get<std::string>(result.report.at("cavity_shape")),
             "offset surface: as asked for");
   EXPECT_LE(std::get<double>(result.report.at("max_constraint_violation")), 1e-6);
+  EXPECT_LT(std::get<double>(result.report.at("gap_to_limit")), 0.05);
   EXPECT_TRUE(isClosedAndOriented(result.inner));
   EXPECT_EQ(intersectingPairs(result.inner), 0U);
   EXPECT_GE(separation(result.inner, body).least, *options.innerLowerBound);
 }
 
+// The goals are well within reach; no cap closes all ends of these.
 INSTANTIATE_TEST_SUITE_P(
     Polycubes, RoundedEndsOf,
     ::testing::Values(
@@ -170,8 +172,10 @@ INSTANTIATE_TEST_SUITE_P(
               {1, 0, 0},
               {0, 0, 2}},
              GoalKind::Float},
-        Body{{{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {0, -1, 1}, {0, -1, 0}}, GoalKind::Float},
-        Body{{{0, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -1, 0}, {0, 2, 0}}, GoalKind::Spin}));
+        Body{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, -1, 0}, {1, 0, -1}, {1, 1, 0}}, GoalKind::Spin},
+        Body{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, -1, 0}, {1, -1, 0}, {2, 1, 0}, {2, 0, 0}},
+             GoalKind::Spin},
+        Body{{{0, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 1, 0}, {-1, -1, 0}}, GoalKind::Stand}));
 
 } // namespace
 } // namespace massprops::testing
