@@ -427,9 +427,6 @@ double cubesWorth(double gap, double leeway) {
   return gap <= kFar ? kManyCubes : std::numeric_limits<double>::infinity();
 }
 
-/// One corner of such a cube is in any room as wide as the ball.
-constexpr double kResolves = 0.55; // of the ball
-
 /// Where cubes of this edge find no room, of those that do; less than an eighth would be too many.
 double edgeThatResolves(double edge, double ball) {
   return std::clamp(kResolves * ball, edge / 8.0, edge / 2.0);

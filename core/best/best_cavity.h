@@ -19,6 +19,9 @@ struct Deliverable {
 Deliverable deliverableSet(const TriangleTree& surface, double wall, const RegionParts& behindWall,
                            const AdmissibleCells& cells);
 
+/// Edge of cubes of which one corner at least is in any room as wide as the ball, in its widths.
+constexpr double kResolves = 0.55;
+
 /// Whether finer cubes than those of the set are tried where these lose too much.
 enum class Cubes { AsFineAsItTakes, OfTheSet };
 

@@ -74,12 +74,8 @@ constexpr Ball kBalls[] = {{2.0, 0.25}, {1.0, 0.25}, {1.0, 1.0}, {0.5, 0.25}};
 /// Positive where there is cavity.
 GridFunction roundedDepth(const Pleated& pleated, const Ball& ball, double wall, double edge) {
   constexpr double kMostNodes = 4e6;
-  const Points& vertices = pleated.cavity.vertices();
   GridFunction result;
-  result.grid = gridAround(vertices, Mat3::Identity(), edge);
-  const auto nodes = static_cast<double>(result.grid.nodes());
-  if (nodes > kMostNodes)
-    result.grid = gridAround(vertices, Mat3::Identity(), edge * std::cbrt(nodes / kMostNodes));
+  result.grid = gridAround(pleated.cavity.vertices(), Mat3::Identity(), edge, kMostNodes);
   const double width = ball.width * wall;
   const double radius = 0.5 * width;
   const Region asFound{pleated.cavity, 0.0};
@@ -117,7 +113,6 @@ std::optional<double> lossOf(const CavityTask& task, const CavityResult& rounded
 
 /// That a ball of this width finds its room in.
 OpenedSet setFor(const CavityTask& task, const OpenedSet& set, double ball) {
-  constexpr double kResolves = 0.55; // of the ball
   if (ball >= set.ball) return set;
   return openedSet(task.surface, task.wall, ball, std::min(set.edge, kResolves * ball));
 }

@@ -7,7 +7,7 @@
 
 namespace massprops {
 
-/// Where cavities may be.
+/// Where cavities may be. Working frame.
 struct CavityRoom {
   const OpenedSet& set;
   const RegionParts& behindWalls; ///< before it was opened
@@ -17,7 +17,8 @@ struct CavityRoom {
 /// The best possible cavity within an offset surface's, of which near the ends that stayed pleated
 /// only that counts which a ball reaches: so these become round. (docs/math.md "Ends of the offset
 /// surface") The widest ball that costs the goal little; as it was found where all cost it much, or
-/// leave nothing. \pre there is a bound; the surface is closed and rests
+/// leave nothing. `found`: an offset surface, found or of no gain; what is returned has its outer
+/// surface. \pre there is a bound; the surface is closed and rests
 CavityResult withRoundedEnds(const CavityTask& task, const CavityRoom& room,
                              const CavityResult& found);
 

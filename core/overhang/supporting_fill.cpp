@@ -18,6 +18,8 @@
 namespace massprops {
 namespace {
 
+constexpr double kMostNodes = 3e6; // what is coarser has wider spans
+
 constexpr float kBand = kSampledBand;
 
 std::size_t at(Eigen::Index i) {
@@ -353,14 +355,9 @@ private:
 } // namespace
 
 SupportingFill::SupportingFill(const OpenedSet& set, const OverhangWishes& wishes)
-    : set_(set),
-      grid_(gridAround(set.surface.vertices(), wishes.toPrint, wishes.edge * wishes.bridge)),
+    : set_(set), grid_(gridAround(set.surface.vertices(), wishes.toPrint,
+                                  wishes.edge * wishes.bridge, kMostNodes)),
       run_(static_cast<float>(1.0 / std::tan(wishes.angle))) {
-  constexpr double kMostNodes = 3e6; // what is coarser has wider spans
-  const auto nodes = static_cast<double>(grid_.nodes());
-  if (nodes > kMostNodes)
-    grid_ = gridAround(set.surface.vertices(), wishes.toPrint,
-                       grid_.edge * std::cbrt(nodes / kMostNodes));
   halfThickness_ = static_cast<float>(wishes.halfThickness * std::max(set.edge / grid_.edge, 1.0));
   fill_.assign(at(grid_.nodes()), kBand);
   const Region region{set_.surface, set_.wall, set_.opening};

@@ -45,18 +45,23 @@ private:
 
 } // namespace
 
-Grid gridAround(const Points& points, const Mat3& rotation, double edge) {
+Grid gridAround(const Points& points, const Mat3& rotation, double edge, double mostNodes) {
   constexpr double kMargin = 3.0;
   const Points turned = points * rotation.transpose();
   const Vec3 low = turned.colwise().minCoeff().transpose();
   const Vec3 high = turned.colwise().maxCoeff().transpose();
-  Grid grid;
-  grid.rotation = rotation;
-  grid.edge = edge;
-  grid.origin = low - Vec3::Constant(kMargin * edge);
-  grid.counts =
-      ((high - low) / edge).array().ceil().cast<int>() + 2 * static_cast<int>(kMargin) + 1;
-  return grid;
+  const auto gridOf = [&](double wanted) {
+    Grid grid;
+    grid.rotation = rotation;
+    grid.edge = wanted;
+    grid.origin = low - Vec3::Constant(kMargin * wanted);
+    grid.counts =
+        ((high - low) / wanted).array().ceil().cast<int>() + 2 * static_cast<int>(kMargin) + 1;
+    return grid;
+  };
+  const Grid grid = gridOf(edge);
+  const auto nodes = static_cast<double>(grid.nodes());
+  return nodes > mostNodes ? gridOf(edge * std::cbrt(nodes / mostNodes)) : grid;
 }
 
 std::vector<float> sampled(const Grid& grid, const std::function<SignedLength()>& makeLength) {

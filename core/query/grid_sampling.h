@@ -8,14 +8,15 @@
 
 namespace massprops {
 
-/// At a point, exact up to a horizon.
+/// At a point, positive inside, exact up to a horizon; lengths in the unit of x.
 using SignedLength = std::function<double(const Vec3& x, double horizon)>;
 
 /// Values are known up to so many edges from where they vanish.
 constexpr float kSampledBand = 4.0F;
 
-/// Around the points, a few nodes more on each side.
-Grid gridAround(const Points& points, const Mat3& rotation, double edge);
+/// Around the points, a few nodes more on each side. `edge`: a length in their unit, made longer
+/// where there would be more than about `mostNodes` nodes.
+Grid gridAround(const Points& points, const Mat3& rotation, double edge, double mostNodes);
 
 /// At every node, in edges, at most `kSampledBand`. `makeLength`: for each block of nodes anew, for
 /// it may remember the last point.

@@ -68,7 +68,7 @@ struct CavityResult {
   std::vector<int> pleated;          ///< their vertices
   /// Made of cubes: the rows of `inner` are the cavity's vertices, as it needs them.
   bool isContour = false;
-  double edge = 0.0; ///< of the cubes, working length; 0: of several
+  double edge = 0.0; ///< of the cubes, working length; 0: not known
   /// Null, or what remembers the distances from the outer surface, which rests.
   std::shared_ptr<ClearanceQuery> clearance;
   Inspection inspection;

@@ -18,7 +18,7 @@ double depthInBall(const Vec3& x) {
 }
 
 TEST(GridSampling, IsTheLengthInEdgesWhereItIsNearZero) {
-  const Grid grid = gridAround(sphere(8).vertices, someRotation(), 0.06);
+  const Grid grid = gridAround(sphere(8).vertices, someRotation(), 0.06, 1e6);
   // Beyond the horizon it need not be exact.
   const std::vector<float> values = sampled(grid, [] {
     return [](const Vec3& x, double horizon) {
@@ -39,7 +39,7 @@ TEST(GridSampling, IsTheLengthInEdgesWhereItIsNearZero) {
 }
 
 TEST(GridSampling, LooksAtFewNodesFarFromZero) {
-  const Grid grid = gridAround(sphere(8).vertices, Mat3::Identity(), 0.02);
+  const Grid grid = gridAround(sphere(8).vertices, Mat3::Identity(), 0.02, 1e7);
   std::atomic<int> looked = 0;
   sampled(grid, [&] {
     return [&](const Vec3& x, double) {
@@ -52,11 +52,17 @@ TEST(GridSampling, LooksAtFewNodesFarFromZero) {
 
 TEST(GridSampling, HasAGridThatReachesBeyondThePoints) {
   const TriangleMesh ball = sphere(8);
-  const Grid grid = gridAround(ball.vertices, someRotation(), 0.1);
+  const Grid grid = gridAround(ball.vertices, someRotation(), 0.1, 1e6);
   const Points turned = ball.vertices * grid.rotation.transpose();
   const Vec3 last = grid.origin + grid.edge * (grid.counts - 1).matrix().cast<double>();
   EXPECT_TRUE((turned.colwise().minCoeff().transpose() - grid.origin).minCoeff() > 2.9 * grid.edge);
   EXPECT_TRUE((last - turned.colwise().maxCoeff().transpose()).minCoeff() > 1.9 * grid.edge);
+}
+
+TEST(GridSampling, IsCoarserWhereThereWouldBeVeryManyNodes) {
+  const Grid grid = gridAround(sphere(8).vertices, Mat3::Identity(), 1e-3, 1e6);
+  EXPECT_LT(grid.nodes(), 1.5e6);
+  EXPECT_GT(grid.nodes(), 0.5e6);
 }
 
 } // namespace
