@@ -468,6 +468,23 @@ TEST(Pipeline, ComesAsNearToAWantedAngleAsItCanWhateverTheVolumeWeighs) {
   EXPECT_EQ(number(weighed, "tip_angle_after"), number(plain, "tip_angle_after"));
 }
 
+TEST(Pipeline, MakesTheAngleAsLargeAsItCanWhereMoreIsWanted) {
+  Options options;
+  options.cavityShape = CavityShape::BestPossible;
+  for (const char* sample : {"box_on_corner", "toy_dinosaur"}) {
+    const TriangleMesh model = sampleMesh(sample);
+    options.tippingAngle = 0.0;
+    const Result best = optimizeMassProperties(model, options);
+    options.tippingAngle = 60.0;
+    const Result nearest = optimizeMassProperties(model, options);
+    const double gain = number(best, "tip_angle_after") - number(best, "tip_angle_before");
+    EXPECT_FALSE(truth(nearest, "solved"));
+    EXPECT_NEAR(number(nearest, "tip_angle_after"), number(best, "tip_angle_after"), 0.01 * gain);
+    EXPECT_NEAR(number(nearest, "tip_angle_limit"), number(best, "tip_angle_limit"), 0.01 * gain);
+    EXPECT_LT(number(nearest, "gap_to_limit"), 0.02);
+  }
+}
+
 TEST(Pipeline, LeavesAPlateSolidThatIsThinnerThanTwoWalls) {
   const Result result = optimizeMassProperties(box({1, 1, 0.01}, 8), stand());
   EXPECT_EQ(result.inner.vertices.rows(), 0);

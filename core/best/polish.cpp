@@ -5,6 +5,7 @@
 #include "core/optimum/layered_quadric.h"
 #include "core/reduced/displacement.h"
 
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -43,9 +44,18 @@ Polished polish(const CavityTask& task, const LayeredQuadric& quadric, Moving mo
   const Region region{task.surface, task.wall, {}, quadric, edge};
   const Points directions = directionsOf(region, moving, held, contour.on, vertices);
   const Moments outer = task.model.solidMoments + task.model.attached;
-  DisplacementTask displacement{
-      task.goal,          task.weights, task.model.fillings, outer, task.model.solidMoments[0],
-      contour.mesh.faces, directions,   kFarthest * edge};
+  const std::unique_ptr<Goal> instead =
+      task.bound->isReachable() ? nullptr : task.goal.insteadOfConstraints();
+  Weights weights = task.weights;
+  if (instead) weights.volume = 0.0; // for it would be bought with the constraints
+  DisplacementTask displacement{instead ? *instead : task.goal,
+                                weights,
+                                task.model.fillings,
+                                outer,
+                                task.model.solidMoments[0],
+                                contour.mesh.faces,
+                                directions,
+                                kFarthest * edge};
   displacement.raisesLevel = true;
   if (moving == Moving::CutAlone) {
     const Displaced done = displace(displacement, vertices);

@@ -318,9 +318,11 @@ void refine(const Goal& goal, const Weights& weights, const Moments& solid,
   level.states = std::move(states);
 }
 
-/// The best body within the cells and, where the goal has a measure, its levels.
-void findBest(const Goal& goal, const Weights& weights, const Moments& solid,
-              const Fillings& fillings, const AdmissibleCells& cells, OptimalBound& bound) {
+/// The best body within the cells and, where the goal has a measure, its levels. The states of the
+/// body.
+std::vector<Moments> findBest(const Goal& goal, const Weights& weights, const Moments& solid,
+                              const Fillings& fillings, const AdmissibleCells& cells,
+                              OptimalBound& bound) {
   if (goal.measure(solid)) bound.levels = levelsOf(goal, solid, fillings, cells);
   const std::vector<std::size_t> binding = bindingStates(fillings, bound.bestLevel());
   bound.binding = chosen(fillings, binding);
@@ -339,9 +341,25 @@ void findBest(const Goal& goal, const Weights& weights, const Moments& solid,
     if (weights.constraints > 0.0)
       states = takeBodyOfMass(goal, weights, solid, whole, cells, bound);
     if (states.empty()) states = findBody(goal, weights, solid, whole, cells, bound);
+    const std::unique_ptr<Goal> instead = goal.insteadOfConstraints();
+    if (instead && weights.constraints > 0.0 && largestViolation(goal, states) > kFeasibility) {
+      Weights alone = weights;
+      alone.volume = 0.0; // for it would be bought with the constraints
+      OptimalBound other;
+      std::vector<Moments> nearer = findBest(*instead, alone, solid, whole, cells, other);
+      if (largestViolation(goal, nearer) < largestViolation(goal, states)) {
+        states = std::move(nearer);
+        bound.worth = std::move(other.worth);
+        bound.massMoments = other.massMoments;
+        const double hollow =
+            (solid[0] - states.front()[0]) / (1.0 - whole.front().density) / solid[0];
+        bound.objective = momentObjective(goal, weights, states, 1.0 - hollow);
+      }
+    }
   }
   if (weights.volume == 0.0) bound.measure = measure(goal, states);
   bound.violation = largestViolation(goal, states);
+  return states;
 }
 
 } // namespace
