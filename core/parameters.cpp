@@ -132,7 +132,7 @@ Rows generalRows() {
              "Offset surface: the outer surface moved inwards. Best possible: all that the wall "
              "leaves on one side of the best plane or quadric. Automatic: the offset surface, and "
              "the best possible one where that misses the goal, leaves more than 2 % of what is "
-             "possible or has ends that stay pleated."),
+             "possible or has ends that are not smooth."),
       startingAt(0.01, length("inner_lower_bound", "Minimum wall", &Options::innerLowerBound,
                               "Least distance of the cavity from the outer surface, in model units "
                               "(read as mm) or percent of the bounding-box diagonal. Parts too "

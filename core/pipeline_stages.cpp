@@ -315,7 +315,7 @@ std::string reasonForBestPossible(const Options& options, const OptimalBound& bo
   // With a weight on smoothness it is far by intention.
   if (options.weights.smoothness == 0.0) {
     if (gap > kFar) return "the offset surface leaves " + percent(gap) + " % of what is possible";
-    if (found.cavity.pleatedEnds > 0) return "ends of the offset surface stay pleated";
+    if (found.cavity.pleatedEnds > 0) return "ends of the offset surface are not smooth";
   }
   return isMissed ? missed : "";
 }
@@ -460,10 +460,7 @@ void considerBestPossible(const Preparation& model, const Foundation& foundation
                           const Options& options, ProgressBar& bar, std::optional<Room>& known,
                           Search& found) {
   found.shapeReason = "as asked for";
-  if (options.cavityShape == CavityShape::Offset) {
-    if (options.overhangAngle > 0.0) carryCeilings(model, foundation, options, bar, found);
-    return;
-  }
+  if (options.cavityShape == CavityShape::Offset) return;
   if (model.posed.open) {
     found.shapeReason = "the best possible cavity needs a closed surface";
     return;
@@ -509,13 +506,15 @@ void considerBestPossible(const Preparation& model, const Foundation& foundation
   found.shapeReason = "the best possible cavity serves less while its rooms are filled";
 }
 
-/// Where ends of an offset surface stayed pleated.
+/// Where ends of an offset surface are not smooth.
 void roundEnds(const Preparation& model, const Foundation& foundation, const Options& options,
                ProgressBar& bar, std::optional<Room>& known, Search& found) {
   const CavityResult& cavity = found.cavity;
   const bool isThere = cavity.status == CavityStatus::Found ||
                        (cavity.status == CavityStatus::NoGain && !moves(options));
   if (!isThere || cavity.shape != CavityShape::Offset || cavity.pleatedEnds == 0) return;
+  // A quadric knows nothing of how smooth offsets are.
+  if (options.weights.smoothness > 0.0) return;
   bar.show(Schedule::kEnd, "Round ends");
   const Room& room = roomFor(known, model, foundation, options, found);
   if (room.possible() == nullptr) return;
@@ -537,6 +536,8 @@ Search bestOfShapes(const Preparation& model, const Foundation& foundation, cons
   std::optional<Room> known;
   considerBestPossible(model, foundation, options, bar, known, result);
   roundEnds(model, foundation, options, bar, known, result);
+  if (options.cavityShape == CavityShape::Offset && options.overhangAngle > 0.0)
+    carryCeilings(model, foundation, options, bar, result);
   return result;
 }
 

@@ -14,10 +14,10 @@ struct CavityRoom {
   const Fillings& states;         ///< that the task's bound was found for
 };
 
-/// The best possible cavity within an offset surface's, of which near the ends that stayed pleated
-/// only that counts which a ball reaches: so these become round. (docs/math.md "Ends of the offset
-/// surface") The widest ball that costs the goal little; as it was found where all cost it much, or
-/// leave nothing. `found`: an offset surface, found or of no gain; what is returned has its outer
+/// The best possible cavity within an offset surface's, of which near its pleated ends only that
+/// counts which a ball reaches: so these become round. (docs/math.md "Ends of the offset surface")
+/// The widest ball that costs the goal little; as it was found where all cost it much, or leave
+/// nothing. `found`: an offset surface, found or of no gain; what is returned has its outer
 /// surface. \pre there is a bound; the surface is closed and rests
 CavityResult withRoundedEnds(const CavityTask& task, const CavityRoom& room,
                              const CavityResult& found);

@@ -1,6 +1,5 @@
 #include "core/mesh/refinement.h"
 
-#include "core/base/triangle.h"
 #include "core/mesh/cgal_mesh.h"
 
 #include <CGAL/Polygon_mesh_processing/remesh.h>
@@ -15,7 +14,6 @@ namespace {
 
 using Edge = SurfaceMesh::Edge_index;
 using HalfEdge = SurfaceMesh::Halfedge_index;
-using Face = SurfaceMesh::Face_index;
 namespace Processing = CGAL::Polygon_mesh_processing;
 
 /// The diagonals of two triangles that count as flat pass each other within this share of the
@@ -116,40 +114,6 @@ std::vector<Edge> longEdges(const SurfaceMesh& mesh, double edge) {
   return result;
 }
 
-/// Of the faces from `first` on.
-std::vector<Edge> borderOf(const SurfaceMesh& mesh, Eigen::Index first) {
-  const auto isOfPart = [&](HalfEdge h) {
-    return !mesh.is_border(h) && static_cast<Eigen::Index>(mesh.face(h).idx()) >= first;
-  };
-  std::vector<Edge> border;
-  for (const Edge e : mesh.edges()) {
-    const HalfEdge h = mesh.halfedge(e);
-    if (isOfPart(h) != isOfPart(mesh.opposite(h))) border.push_back(e);
-  }
-  return border;
-}
-
-/// The middle one of lengths that must stay, or not much less than the longest.
-double wantedLength(const SurfaceMesh& mesh, const std::vector<Edge>& edges) {
-  constexpr double kLongest = 1.3; // CGAL asks for less than 4/3
-  std::vector<double> lengths(edges.size());
-  std::transform(edges.begin(), edges.end(), lengths.begin(),
-                 [&](Edge e) { return lengthOf(mesh, e); });
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return std::max(*middle, *std::max_element(lengths.begin(), lengths.end()) / kLongest);
-}
-
-/// To a millionth of their extent or a little less. Halves of edges are equally long, so that last
-/// digits, which hang on where the model lies, decide which is looked at first; here there are
-/// none.
-Points rounded(const Points& points) {
-  constexpr int kBits = 20;
-  const double extent = (points.colwise().maxCoeff() - points.colwise().minCoeff()).maxCoeff();
-  const double step = std::ldexp(1.0, std::ilogb(extent) - kBits);
-  return (points.array() / step).round() * step;
-}
-
 } // namespace
 
 TriangleMesh refined(const Points& vertices, const Faces& faces, double edge) {
@@ -167,60 +131,6 @@ TriangleMesh refined(const Points& vertices, const Faces& faces, double edge) {
     Processing::split_long_edges(edges, longest, mesh);
   }
   return triangleMesh(mesh);
-}
-
-TriangleMesh remeshedPart(const TriangleMesh& patch, Eigen::Index first) {
-  constexpr int kRounds = 5;
-  SurfaceMesh mesh = surfaceMesh(rounded(patch.vertices), patch.faces);
-  const auto count = static_cast<Eigen::Index>(mesh.number_of_faces());
-  const std::vector<Edge> border = borderOf(mesh, first);
-  if (count < patch.faces.rows() || border.empty()) return {};
-  const double length = wantedLength(mesh, border);
-  constexpr double kMostTriangles = 20000.0; // of a part with a border of slivers, which take long
-  constexpr double kTriangle = 0.433;        // area of an equilateral one with edges of length 1
-  std::vector<Face> part;
-  double area = 0.0;
-  for (Eigen::Index f = first; f < count; ++f) {
-    part.emplace_back(static_cast<Face::size_type>(f));
-    area += 0.5 * areaNormal(patch.vertices, patch.faces, f).norm();
-  }
-  if (area > kMostTriangles * kTriangle * length * length) return {};
-  auto isFixed = mesh.add_property_map<Edge, bool>("e:is_fixed", false).first;
-  for (const Edge e : border) isFixed[e] = true;
-  std::vector<char> isOutside(mesh.num_vertices(), 0); // or on the border
-  for (const int v : patch.faces.topRows(first).reshaped())
-    isOutside[static_cast<std::size_t>(v)] = 1;
-  Processing::isotropic_remeshing(part, length, mesh,
-                                  CGAL::parameters::number_of_iterations(kRounds)
-                                      .protect_constraints(true)
-                                      .edge_is_constrained_map(isFixed));
-  // Of the faces and vertices that go the numbers are given to new ones, of no others.
-  std::vector<int> placeOf(mesh.num_vertices(), -1);
-  std::vector<Vec3> added;
-  std::vector<int> corners;
-  for (const Face f : mesh.faces()) {
-    if (static_cast<Eigen::Index>(f.idx()) < first) continue;
-    for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) {
-      int& place = placeOf[v.idx()];
-      if (place < 0 && v.idx() < isOutside.size() && isOutside[v.idx()] != 0)
-        place = static_cast<int>(v.idx());
-      if (place < 0) {
-        place = static_cast<int>(patch.vertices.rows()) + static_cast<int>(added.size());
-        added.push_back(pointOf(mesh, v));
-      }
-      corners.push_back(place);
-    }
-  }
-  TriangleMesh result{
-      patch.vertices,
-      Eigen::Map<const Faces>(corners.data(), static_cast<Eigen::Index>(corners.size()) / 3, 3)};
-  result.vertices.conservativeResize(
-      patch.vertices.rows() + static_cast<Eigen::Index>(added.size()), 3);
-  for (std::size_t i = 0; i < added.size(); ++i) {
-    result.vertices.row(patch.vertices.rows() + static_cast<Eigen::Index>(i)) =
-        added[i].transpose();
-  }
-  return result;
 }
 
 double longestEdge(const Points& vertices, const Faces& faces) {

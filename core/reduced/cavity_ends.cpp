@@ -110,8 +110,8 @@ CavityEnds cavityEnds(const CavityTask& task, const CavityResult& found,
   CavityEnds ends;
   ends.turned = turnedAway(task, found);
   spread(task, found, neighbours, ends.turned);
-  ends.fan = fans(task, found, neighbours, ends.turned);
-  const auto goes = [&](int v) { return ends.fan[at(v)] != 0 || solid[at(v)] != 0; };
+  const Marks fan = fans(task, found, neighbours, ends.turned);
+  const auto goes = [&](int v) { return fan[at(v)] != 0 || solid[at(v)] != 0; };
   const auto belongs = [&](int v) {
     const IndexRange around = neighbours[at(v)];
     return solid[at(v)] == 0 && (goes(v) || std::any_of(around.begin(), around.end(), goes));

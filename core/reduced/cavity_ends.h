@@ -13,10 +13,8 @@ struct CavityEnds {
   /// Those of the fans that an offset surface ends in: it turns away from the outer surface there
   /// and runs to the skeleton.
   std::vector<char> turned;
-  /// These, vertices whose edges became long as far as they hang together with them or with what is
-  /// solid, and the neighbours of both.
-  std::vector<char> fan;
-  /// The end that a vertex belongs to, of a fan or next to what is of a fan or solid; −1: to none.
+  /// The end that a vertex belongs to: of a fan, with vertices whose edges became long as far as
+  /// they hang together with it or with what is solid, or up to two edges away; −1: to none.
   /// Vertices of different ends are no neighbours.
   std::vector<int> end;
   int count = 0;

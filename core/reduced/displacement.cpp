@@ -115,13 +115,6 @@ Displaced displace(const DisplacementTask& task, Points& vertices) {
   }
   const auto evaluateAt = [&](const Vector& q) {
     const Evaluated body = bodyAt(q.head(count));
-    if (task.isLeast) {
-      Evaluation e = evaluateBody(task.goal, task.weights, body.states, body.volumeShare,
-                                  body.volumeShareGradient);
-      e.objective = q.squaredNorm();
-      e.objectiveGradient = 2.0 * q;
-      return e;
-    }
     return levels ? levels->at(body.states, body.volumeShare, body.volumeShareGradient, q[count])
                   : evaluateBody(task.goal, task.weights, body.states, body.volumeShare,
                                  body.volumeShareGradient);

@@ -21,8 +21,6 @@ struct DisplacementTask {
   /// Whether the goal's level is raised itself, kinks and all, where one condition is all that it
   /// asks for: its smooth objective is nearly that only.
   bool raisesLevel = false;
-  /// Whether the constraints are all that counts, and they shall hold with the least motion.
-  bool isLeast = false;
 };
 
 struct Displaced {

@@ -26,7 +26,7 @@ Faces facesAt(const Faces& faces, const std::vector<char>& marks) {
 } // namespace
 
 Skin::Skin(const Points& vertices, const Faces& faces, const std::vector<char>& isFree,
-           double length, const Vector& springs)
+           double length)
     : vertices_(vertices) {
   std::vector<char> isNear = isFree;
   const Faces freeFaces = facesAt(faces, isFree);
@@ -64,12 +64,6 @@ Skin::Skin(const Points& vertices, const Faces& faces, const std::vector<char>& 
         pull_.row(row) -= entry.value() * x.row(j);
       }
     }
-  }
-  for (Eigen::Index i = 0; i < unknowns; ++i) {
-    const int v = free_[at(i)];
-    const double spring = springs[v] * mass_[i];
-    entries.emplace_back(i, i, spring);
-    pull_.row(i) += spring * vertices.row(v);
   }
   SparseMatrix system(unknowns, unknowns);
   system.setFromTriplets(entries.begin(), entries.end());

@@ -15,11 +15,8 @@ namespace massprops {
 class Skin {
 public:
   /// The faces around free vertices and around their neighbours count, no others. `length`: in the
-  /// vertices' unit. `springs`: how much ∫|x − where it was|² counts at each vertex, an inverse
-  /// square of such a length; 0: not at all. \pre every free vertex is connected with one that
-  /// rests
-  Skin(const Points& vertices, const Faces& faces, const std::vector<char>& isFree, double length,
-       const Vector& springs);
+  /// vertices' unit. \pre every free vertex is connected with one that rests
+  Skin(const Points& vertices, const Faces& faces, const std::vector<char>& isFree, double length);
 
   bool isSolvable() const { return solver_.info() == Eigen::Success; }
   /// All vertices, with the free ones where nothing presses them. \pre solvable

@@ -7,7 +7,6 @@
 #include "core/mesh/components.h"
 #include "core/mesh/connectivity.h"
 #include "core/mesh/hole_filling.h"
-#include "core/mesh/refinement.h"
 #include "core/mesh/signed_volume.h"
 #include "core/optimum/layered_quadric.h"
 #include "core/reduced/cavity_ends.h"
@@ -60,31 +59,22 @@ bool isClosed(const TriangleMesh& mesh) {
   return wrong.boundary + wrong.nonManifold + wrong.incoherent == 0;
 }
 
-/// What an end is like.
-enum class End {
-  Cap,    ///< closed anew
-  Faired, ///< the fan itself, without its folds
-  AsFound
-};
-
-/// A part that is to be smooth, with other triangles, over the vertices of the whole and new ones:
-/// of a cap those between a hole's border, divided.
-TriangleMesh withOtherTriangles(const Points& vertices, const Faces& kept,
-                                const VertexCorners& corners, const Faces& part, End kind) {
+/// The triangles between a hole's border, divided, over the vertices of the whole and new ones.
+TriangleMesh divided(const Points& vertices, const Faces& kept, const VertexCorners& corners,
+                     const Faces& cap) {
   std::vector<Eigen::Index> around;
-  for (const int v : part.reshaped()) {
+  for (const int v : cap.reshaped()) {
     for (const int c : corners.at(v)) around.push_back(c / 3);
   }
   std::sort(around.begin(), around.end());
   around.erase(std::unique(around.begin(), around.end()), around.end());
   const auto first = static_cast<Eigen::Index>(around.size());
-  Faces faces(first + part.rows(), 3);
+  Faces faces(first + cap.rows(), 3);
   for (Eigen::Index i = 0; i < first; ++i) faces.row(i) = kept.row(around[at(i)]);
-  faces.bottomRows(part.rows()) = part;
+  faces.bottomRows(cap.rows()) = cap;
   const Submesh patch = submesh(vertices, faces);
-  const TriangleMesh other =
-      kind == End::Faired ? remeshedPart(patch.mesh, first) : refinedFilling(patch.mesh, first);
-  if (other.faces.rows() == 0) return {Points(0, 3), part};
+  const TriangleMesh other = refinedFilling(patch.mesh, first);
+  if (other.faces.rows() == 0) return {Points(0, 3), cap};
   const Eigen::Index old = patch.mesh.vertices.rows();
   return {other.vertices.bottomRows(other.vertices.rows() - old), other.faces.unaryExpr([&](int v) {
             return v < old ? patch.vertexOf[at(v)] : static_cast<int>(vertices.rows() + v - old);
@@ -93,8 +83,6 @@ TriangleMesh withOtherTriangles(const Points& vertices, const Faces& kept,
 
 /// Least volume of a component that is worth printing, in cubes of the wall.
 constexpr double kSpeck = 8.0;
-/// Ways to make an end smooth.
-constexpr int kKinds = 2;
 /// Of many ends some always are faulty, and to try all again takes long.
 constexpr int kMostEnds = 8;
 /// Of what the cavity gains over the solid body, that smooth ends may cost.
@@ -113,20 +101,13 @@ public:
   CavityResult run();
 
 private:
-  End kindOf(int end) const;
-  bool isAt(End kind, int vertex) const;
-  Marks bridges() const;
-  bool tryOtherwise();
-  void markPleated(CavityResult& result) const;
+  bool isAsFound(int vertex) const;
+  Marks haveSharpEdges(const CavityResult& result, const std::vector<int>& end) const;
+  void markPleated(const std::vector<int>& end, CavityResult& result) const;
   /// What has not been inspected yet.
   struct Stretched {
     std::unique_ptr<const Skin> skin; ///< at the caps
     CavityResult result;
-  };
-
-  struct Pressing {
-    double farthest; ///< walls, in the mean square
-    bool isLeast;    ///< see `DisplacementTask`
   };
 
   struct Closed {
@@ -136,7 +117,8 @@ private:
 
   struct Inspected {
     CavityResult result;
-    bool isGood; ///< clean and worth it
+    bool isGood;          ///< clean and worth it
+    std::vector<int> end; ///< of every vertex; −1
   };
 
   /// Of what the goal gains.
@@ -149,13 +131,11 @@ private:
   Capped opened() const;
   std::vector<Stretched> stretched(Capped capped) const;
   std::optional<Inspected> inspected(const Capped& rough);
-  std::optional<Inspected> withBridgesClosed(const CavityResult& than);
-  std::optional<Closed> closed(const Stretched& caps, const Pressing& pressing) const;
+  std::optional<Closed> closed(const Stretched& caps, double farthest) const;
   void dropSpecks(double leastVolume, Capped& capped) const;
   CavityResult resultOf(const Capped& capped) const;
   bool keepsConstraints(const CavityResult& result) const;
-  bool press(const Skin& skin, const Pressing& pressing, const Marks& atWall,
-             CavityResult& result) const;
+  bool press(const Skin& skin, double farthest, const Marks& atWall, CavityResult& result) const;
   bool keepsVolume(const CavityResult& result) const;
   bool isWorthIt(const CavityResult& result) const;
   bool giveUp(const CavityResult& result, const std::vector<int>& end);
@@ -174,10 +154,7 @@ private:
   VertexAdjacency neighbours_;
   VertexCorners corners_;
   CavityEnds ends_;
-  /// By the end: whether it is a fan between parts that hang together nowhere else there, and how
-  /// many kinds of smooth ends were given up.
-  Marks isBridge_;
-  std::vector<int> givenUp_;
+  Marks isGivenUp_; ///< by the end: it stays as it was
 };
 
 Capping::Capping(const CavityTask& task, const CavityResult& found)
@@ -190,163 +167,103 @@ Capping::Capping(const CavityTask& task, const CavityResult& found)
       outerMass_(outerMoments(task, found)),
       mostViolation_(mostViolation(task, hollowBody(task, found))),
       neighbours_(vertexAdjacency(n_, faces_)), corners_(vertexCorners(n_, faces_)),
-      ends_(cavityEnds(task, found, neighbours_)), isBridge_(bridges()),
-      givenUp_(at(ends_.count), 0) {}
+      ends_(cavityEnds(task, found, neighbours_)), isGivenUp_(at(ends_.count), 0) {}
 
-/// A bridge stays one if it can; everything else is closed if it can.
-End Capping::kindOf(int end) const {
-  const int givenUp = givenUp_[at(end)];
-  if (givenUp >= kKinds) return End::AsFound;
-  return (givenUp == 1) == (isBridge_[at(end)] != 0) ? End::Cap : End::Faired;
-}
-
-bool Capping::isAt(End kind, int vertex) const {
+bool Capping::isAsFound(int vertex) const {
   const int end = ends_.end[at(vertex)];
-  return end >= 0 && kindOf(end) == kind;
-}
-
-/// Ends without which the cavity would fall into more parts.
-Marks Capping::bridges() const {
-  Marks solid = found_.cavity.solid;
-  for (std::size_t v = 0; v < solid.size(); ++v) {
-    if (ends_.turned[v] != 0) solid[v] = 1;
-  }
-  const CavitySurface surface = cavitySurface(found_.inner, faces_, corners_, std::move(solid));
-  const std::vector<int> whole = componentNumbers(n_, found_.cavity.faces);
-  const std::vector<int> parts = componentNumbers(n_, surface.faces);
-  Marks result(at(ends_.count), 0);
-  std::vector<int> first(result.size(), -1); // vertex at the end
-  for (Eigen::Index f = surface.firstCapFace; f < surface.faces.rows(); ++f) {
-    const int v = surface.faces(f, 0);
-    const int end = ends_.end[at(v)];
-    if (end < 0) continue;
-    int& other = first[at(end)];
-    if (other < 0) other = v;
-    if (whole[at(v)] == whole[at(other)] && parts[at(v)] != parts[at(other)]) result[at(end)] = 1;
-  }
-  return result;
-}
-
-/// With caps where fans are between parts of the cavity. Empty: that is not good, or serves the
-/// goal no better.
-std::optional<Capping::Inspected> Capping::withBridgesClosed(const CavityResult& than) {
-  const Marks bridges = std::exchange(isBridge_, Marks(isBridge_.size(), 0));
-  std::optional<Inspected> tried;
-  if (bridges != isBridge_) tried = inspected(opened());
-  isBridge_ = bridges;
-  if (tried && (!tried->isGood || !servesBetter(task_, tried->result, than))) tried.reset();
-  return tried;
-}
-
-/// All bridges that nothing else was tried for or, where there are none, all ends. False where
-/// there are no such ends, either.
-bool Capping::tryOtherwise() {
-  for (const bool isOfBridges : {true, false}) {
-    bool isChanged = false;
-    for (std::size_t end = 0; end < givenUp_.size(); ++end) {
-      if (givenUp_[end] > 0 || (isOfBridges && isBridge_[end] == 0)) continue;
-      givenUp_[end] = 1;
-      isChanged = true;
-    }
-    if (isChanged) return true;
-  }
-  return false;
+  return end >= 0 && isGivenUp_[at(end)] != 0;
 }
 
 /// What is wrong at one end stays as it was, and the others are tried again.
 CavityResult Capping::run() {
   constexpr int kAttempts = 8;
   for (int attempt = 0; attempt < kAttempts && ends_.count <= kMostEnds; ++attempt) {
-    const bool isAnyLeft =
-        std::any_of(givenUp_.begin(), givenUp_.end(), [](int givenUp) { return givenUp < kKinds; });
-    if (!isAnyLeft) break;
-    const Capped rough = opened();
-    std::optional<Inspected> tried = inspected(rough);
-    if (!tried) {
-      if (!tryOtherwise()) break;
-      continue;
-    }
+    if (std::find(isGivenUp_.begin(), isGivenUp_.end(), 0) == isGivenUp_.end()) break;
+    std::optional<Inspected> tried = inspected(opened());
+    if (!tried) break;
     if (tried->isGood) {
-      if (auto other = withBridgesClosed(tried->result)) tried = std::move(other);
-      markPleated(tried->result);
+      markPleated(tried->end, tried->result);
       return std::move(tried->result);
     }
     if (tried->result.inspection.isClean()) {
-      giveUpCostliest(tried->result, rough.end);
-    } else if (!giveUp(tried->result, rough.end)) {
+      giveUpCostliest(tried->result, tried->end);
+    } else if (!giveUp(tried->result, tried->end)) {
       break;
     }
   }
-  std::fill(givenUp_.begin(), givenUp_.end(), kKinds);
+  std::fill(isGivenUp_.begin(), isGivenUp_.end(), 1);
   CavityResult result = found_;
-  markPleated(result);
+  markPleated(ends_.end, result);
   return result;
 }
 
-/// With smooth ends, of caps the first that are clean and worth it, of fans the best such, or else
-/// the first of all; empty: there are none.
+/// With smooth ends, the first that are clean and worth it, or else the first of all; empty: there
+/// are none.
 std::optional<Capping::Inspected> Capping::inspected(const Capped& rough) {
-  constexpr Pressing kOfCaps[] = {{4.0, false}, {2.0, false}};
-  constexpr Pressing kOfFans[] = {{0.125, false}, {2.0, true}}; // these keep their shape
-  if (!isClosed(rough.mesh)) return {};                         // ends too close to each other
+  constexpr double kFarthest[] = {4.0, 2.0}; // walls
+  if (!isClosed(rough.mesh)) return {};      // ends too close to each other
   std::optional<Inspected> first;
-  std::optional<Inspected> best;
   const std::vector<Stretched> all = stretched(rough);
-  const auto isAny = [&](End kind) {
-    return std::any_of(rough.end.begin(), rough.end.end(),
-                       [&](int end) { return end >= 0 && kindOf(end) == kind; });
-  };
-  const bool isAnyFaired = isAny(End::Faired);
-  std::vector<Pressing> pressings;
-  if (isAnyFaired) pressings.assign(std::begin(kOfFans), std::end(kOfFans));
-  if (isAny(End::Cap)) pressings.insert(pressings.end(), std::begin(kOfCaps), std::end(kOfCaps));
   Marks isKnown(all.size(), 0);
-  for (const Pressing& pressing : pressings) {
+  for (const double farthest : kFarthest) {
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (isKnown[i] != 0) continue;
-      std::optional<Closed> caps = closed(all[i], pressing);
+      std::optional<Closed> caps = closed(all[i], farthest);
       if (!caps) continue;
       isKnown[i] = caps->isPressed ? 0 : 1;
       CavityResult& result = caps->result;
       result.inspection = inspect(result.inner, result.cavity.faces, outer(), task_.wall, false,
                                   LookFirst::ForAll, found_.clearance.get(), task_.stored);
       const bool isGood = result.inspection.isClean() && isWorthIt(result);
-      Inspected tried{std::move(result), isGood};
-      if (isGood && !isAnyFaired) return tried;
-      if (isGood && (!best || servesBetter(task_, tried.result, best->result))) {
-        best = std::move(tried);
-      } else if (!first) {
-        first = std::move(tried);
-      }
+      Inspected tried{std::move(result), isGood, rough.end};
+      if (isGood) return tried;
+      if (!first) first = std::move(tried);
     }
   }
-  if (best) return best;
   return first;
 }
 
-/// The ends that stayed as they were.
-void Capping::markPleated(CavityResult& result) const {
-  result.pleatedEnds = static_cast<int>(std::count(givenUp_.begin(), givenUp_.end(), kKinds));
+/// Of every end, whether the surface folds at one of its edges.
+Marks Capping::haveSharpEdges(const CavityResult& result, const std::vector<int>& end) const {
+  constexpr double kCosine = 0.5; // 60°
+  const Faces& faces = result.cavity.faces;
+  const std::vector<int> opposite = oppositeHalfEdges(result.inner.rows(), faces);
+  Marks are(at(ends_.count), 0);
+  for (int h = 0; h < static_cast<int>(opposite.size()); ++h) {
+    const int number =
+        std::max(end[at(faces(h / 3, h % 3))], end[at(faces(h / 3, nextHalfEdge(h) % 3))]);
+    if (number < 0 || are[at(number)] != 0) continue;
+    const Vec3 here = areaNormal(result.inner, faces, h / 3);
+    const Vec3 there = areaNormal(result.inner, faces, opposite[at(h)] / 3);
+    if (here.dot(there) < kCosine * here.norm() * there.norm()) are[at(number)] = 1;
+  }
+  return are;
+}
+
+/// The ends that stayed as they were, and those whose caps have a ragged rim or folds.
+void Capping::markPleated(const std::vector<int>& end, CavityResult& result) const {
+  Marks isPleated = haveSharpEdges(result, end);
+  for (std::size_t number = 0; number < isPleated.size(); ++number) {
+    if (isGivenUp_[number] != 0) isPleated[number] = 1;
+  }
+  result.pleatedEnds = static_cast<int>(std::count(isPleated.begin(), isPleated.end(), 1));
   result.pleated.clear();
-  for (int v = 0; v < static_cast<int>(n_); ++v) {
-    if (isAt(End::AsFound, v)) result.pleated.push_back(v);
+  for (int v = 0; v < static_cast<int>(end.size()); ++v) {
+    if (end[at(v)] >= 0 && isPleated[at(end[at(v)])] != 0) result.pleated.push_back(v);
   }
 }
 
-/// With other triangles at ends that are to be smooth, which they are not yet.
+/// With holes closed at ends that are to be smooth, which they are not yet.
 Capped Capping::opened() const {
-  const auto isRough = [&](int v) { return isAt(End::AsFound, v); };
-  const auto isFaired = [&](int v) { return isAt(End::Faired, v); };
   Marks solid = found_.cavity.solid;
   for (int v = 0; v < static_cast<int>(n_); ++v) {
-    const Marks& goes = isFaired(v) ? ends_.fan : ends_.turned;
-    if (goes[at(v)] != 0 && !isRough(v)) solid[at(v)] = 1;
+    if (ends_.turned[at(v)] != 0 && !isAsFound(v)) solid[at(v)] = 1;
   }
   const CavitySurface surface = cavitySurface(found_.inner, faces_, corners_, std::move(solid));
   const Faces kept = surface.faces.topRows(surface.firstCapFace);
   const Faces& before = found_.cavity.faces;
   std::vector<Faces> parts{kept, facesWhere(before, [&](Eigen::Index f) {
-                             return f >= found_.cavity.firstCapFace && isRough(before(f, 0)) &&
+                             return f >= found_.cavity.firstCapFace && isAsFound(before(f, 0)) &&
                                     !hasAny(before, f, surface.solid);
                            })};
   Capped result;
@@ -362,23 +279,16 @@ Capped Capping::opened() const {
     return static_cast<int>(n_) + static_cast<int>(added.size()) - 1;
   };
   const Faces caps = facesWhere(surface.faces, [&](Eigen::Index f) {
-    const int v = surface.faces(f, 0);
-    return f >= surface.firstCapFace && !isRough(v) && !isFaired(v);
+    return f >= surface.firstCapFace && !isAsFound(surface.faces(f, 0));
   });
-  const Faces fans = facesWhere(before, [&](Eigen::Index f) {
-    const auto corners = before.row(f);
-    const bool goes = f >= found_.cavity.firstCapFace || hasAny(before, f, surface.solid);
-    return goes && std::any_of(corners.begin(), corners.end(), isFaired);
-  });
-  for (const Faces& part : connectedComponents(n_, joined({caps, fans}))) {
-    const int end = ends_.end[at(part(0, 0))];
-    const TriangleMesh other =
-        withOtherTriangles(found_.inner, kept, keptCorners, part, end < 0 ? End::Cap : kindOf(end));
+  for (const Faces& cap : connectedComponents(n_, caps)) {
+    const int end = ends_.end[at(cap(0, 0))];
+    const TriangleMesh other = divided(found_.inner, kept, keptCorners, cap);
     const int first = static_cast<int>(n_) + static_cast<int>(added.size());
     for (const auto& position : other.vertices.rowwise()) add(position, end);
     parts.emplace_back(other.faces.unaryExpr(
         [&](int v) { return v < n_ ? v : first + v - static_cast<int>(n_); }));
-    for (const int v : part.reshaped()) {
+    for (const int v : cap.reshaped()) {
       const bool isOnBorder = keptCorners.at(v).size() > 0;
       if (isOnBorder && placeOf[at(v)] < n_) placeOf[at(v)] = add(found_.inner.row(v), end);
     }
@@ -398,15 +308,10 @@ std::vector<Capping::Stretched> Capping::stretched(Capped capped) const {
   dropSpecks(0.0, capped);
   Marks isFree(at(capped.mesh.vertices.rows()), 1);
   std::fill_n(isFree.begin(), n_, 0);
-  Vector springs = Vector::Zero(capped.mesh.vertices.rows());
-  for (Eigen::Index v = n_; v < springs.size(); ++v) {
-    const int end = capped.end[at(v)];
-    if (end >= 0 && kindOf(end) == End::Faired) springs[v] = 1.0 / (task_.wall * task_.wall);
-  }
   std::vector<Stretched> all;
   for (const double stiffness : kStiffness) {
     auto skin = std::make_unique<const Skin>(capped.mesh.vertices, capped.mesh.faces, isFree,
-                                             stiffness * task_.wall, springs);
+                                             stiffness * task_.wall);
     if (!skin->isSolvable()) continue;
     Capped smooth = capped;
     smooth.mesh.vertices = skin->atRest();
@@ -423,8 +328,7 @@ std::vector<Capping::Stretched> Capping::stretched(Capped capped) const {
 
 /// The caps as they keep the wall and the constraints hold, not inspected yet; empty where they do
 /// not.
-std::optional<Capping::Closed> Capping::closed(const Stretched& caps,
-                                               const Pressing& pressing) const {
+std::optional<Capping::Closed> Capping::closed(const Stretched& caps, double farthest) const {
   constexpr int kRounds = 12;
   CavityResult result = caps.result;
   ClearanceQuery clearance(outer());
@@ -435,7 +339,7 @@ std::optional<Capping::Closed> Capping::closed(const Stretched& caps,
   for (int round = 0; round < kRounds; ++round) {
     if (!keepsConstraints(result)) {
       isPressed = true;
-      if (!press(*caps.skin, pressing, atWall, result)) return std::nullopt;
+      if (!press(*caps.skin, farthest, atWall, result)) return std::nullopt;
     }
     Points moved = result.inner;
     // Each time by a little less, so that what has moved once is not moved again, which would upset
@@ -487,9 +391,9 @@ bool Capping::keepsConstraints(const CavityResult& result) const {
   return task_.weights.constraints <= 0.0 || hollowBody(task_, result).violation <= most;
 }
 
-/// Presses the caps in and out until the constraints hold; false where they do not. `atWall`:
-/// vertices that must not move.
-bool Capping::press(const Skin& skin, const Pressing& pressing, const Marks& atWall,
+/// Presses the caps in and out until the constraints hold; false where they do not. `farthest`:
+/// walls, in the mean square. `atWall`: vertices that must not move.
+bool Capping::press(const Skin& skin, double farthest, const Marks& atWall,
                     CavityResult& result) const {
   const Eigen::Index terms = task_.goal.usesInertia() ? 10 : 4;
   RowMatrix pressures = RowMatrix::Zero(result.inner.rows(), terms);
@@ -499,16 +403,15 @@ bool Capping::press(const Skin& skin, const Pressing& pressing, const Marks& atW
     if (v < n_) continue;
     pressures.row(v) = monomials(result.inner.row(v).transpose()).head(terms).transpose();
   }
-  DisplacementTask displacement{movedGoal_ ? *movedGoal_ : task_.goal,
-                                task_.weights,
-                                task_.model.fillings,
-                                outerMass_,
-                                task_.model.solidMoments[0],
-                                result.cavity.faces,
-                                directions,
-                                pressing.farthest * task_.wall,
-                                skin.deflections(pressures)};
-  displacement.isLeast = pressing.isLeast;
+  const DisplacementTask displacement{movedGoal_ ? *movedGoal_ : task_.goal,
+                                      task_.weights,
+                                      task_.model.fillings,
+                                      outerMass_,
+                                      task_.model.solidMoments[0],
+                                      result.cavity.faces,
+                                      directions,
+                                      farthest * task_.wall,
+                                      skin.deflections(pressures)};
   const Displaced done = displace(displacement, result.inner);
   result.effort.evaluations += done.evaluations;
   return done.evaluations > 0 && done.violation <= mostViolation_;
@@ -571,7 +474,7 @@ void Capping::giveUpCostliest(const CavityResult& result, const std::vector<int>
   const auto first = static_cast<int>(result.inner.rows());
   std::vector<std::pair<double, int>> costs;
   for (int number = 0; number < ends_.count; ++number) {
-    if (kindOf(number) == End::AsFound) continue;
+    if (isGivenUp_[at(number)] != 0) continue;
     const auto isOfEnd = [&](const Faces& faces, Eigen::Index f) {
       return std::any_of(faces.row(f).begin(), faces.row(f).end(),
                          [&](int v) { return end[at(v)] == number; });
@@ -591,7 +494,7 @@ void Capping::giveUpCostliest(const CavityResult& result, const std::vector<int>
   for (std::size_t i = 0; i < costs.size(); ++i) {
     left -= costs[i].first;
     const bool isCostliest = i + 1 == costs.size();
-    if (isCostliest || left < 0.0) ++givenUp_[at(costs[i].second)];
+    if (isCostliest || left < 0.0) isGivenUp_[at(costs[i].second)] = 1;
   }
 }
 
@@ -601,7 +504,7 @@ bool Capping::giveUp(const CavityResult& result, const std::vector<int>& end) {
   Marks isWrong(at(ends_.count), 0);
   const auto giveUpAt = [&](int v) {
     const int number = end[at(v)];
-    if (number >= 0 && kindOf(number) != End::AsFound) isWrong[at(number)] = 1;
+    if (number >= 0 && isGivenUp_[at(number)] == 0) isWrong[at(number)] = 1;
   };
   for (const std::vector<int>* wrong : {&result.inspection.crossing, &result.inspection.thin}) {
     for (const int v : *wrong) {
@@ -609,8 +512,9 @@ bool Capping::giveUp(const CavityResult& result, const std::vector<int>& end) {
       for (const int w : neighbours[at(v)]) giveUpAt(w);
     }
   }
-  for (std::size_t number = 0; number < isWrong.size(); ++number)
-    givenUp_[number] += isWrong[number];
+  for (std::size_t number = 0; number < isWrong.size(); ++number) {
+    if (isWrong[number] != 0) isGivenUp_[number] = 1;
+  }
   return std::find(isWrong.begin(), isWrong.end(), 1) != isWrong.end();
 }
 

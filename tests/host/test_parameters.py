@@ -65,12 +65,11 @@ class ParametersTest(HostTest):
             report, (vertices, faces) = self.top(cavity_shape=shape)
             self.assertTrue(report["cavity_shape"].startswith(words), report["cavity_shape"])
             self.assertTrue(report["solved"], report["message"])
-            # The outer surface's triangles moved inwards, but for its ends, or those of fine cubes.
-            self.assertEqual(len(vertices) < 1.5 * len(self.outer[0]), shape == OFFSET_SURFACE)
+            self.assertEqual("pleated_ends" in report, shape == OFFSET_SURFACE)
             wall = measure.surface_distance(self.outer, (vertices, faces))
             self.assertGreaterEqual(wall, report["min_wall"] - 1e-6)
             gaps[shape] = report["gap_to_limit"]
-        self.assertGreater(gaps[OFFSET_SURFACE], 0.03)
+        self.assertGreater(gaps[OFFSET_SURFACE], 1.5 * gaps[BEST_POSSIBLE])
         self.assertLess(gaps[BEST_POSSIBLE], 0.015)
         self.assertLess(gaps[AUTOMATIC], 0.015)
 
@@ -115,7 +114,8 @@ class ParametersTest(HostTest):
         def depth(inner):
             return max(np.linalg.norm(self.outer[0] - y, axis=1).min() for y in inner)
 
-        self.assertGreater(depth(far), 1.3 * depth(near))
+        # What is deepest ran to the skeleton, and is rounded off.
+        self.assertGreater(depth(far), 1.1 * depth(near))
 
     def test_selected_faces_stay_solid_to_a_depth(self):
         select = ('<filter name="Conditional Face Selection"><Param type="RichString" '

@@ -2,7 +2,6 @@
 #include "core/mesh/refinement.h"
 
 #include "core/base/triangle.h"
-#include "core/mesh/components.h"
 #include "core/physics/moments.h"
 #include "judge/checks.h"
 #include "shapes.h"
@@ -10,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <memory>
 #include <vector>
 
 namespace massprops::testing {
@@ -55,78 +53,6 @@ TEST(Refined, HasTheSameShapeWithoutLongEdges) {
                   1.0, 1e-4);
     }
   }
-}
-
-/// The upper half of a ball after the lower one, and where it begins.
-struct Halves {
-  TriangleMesh mesh = sphere(24);
-  Eigen::Index first = 0;
-
-  Halves() {
-    Faces sorted(mesh.faces.rows(), 3);
-    Eigen::Index row = 0;
-    for (const bool isUpper : {false, true}) {
-      if (isUpper) first = row;
-      for (const auto& face : mesh.faces.rowwise()) {
-        const double z =
-            mesh.vertices(face[0], 2) + mesh.vertices(face[1], 2) + mesh.vertices(face[2], 2);
-        if ((z > 0.3) == isUpper) sorted.row(row++) = face;
-      }
-    }
-    mesh.faces = sorted;
-  }
-};
-
-TEST(RemeshedPart, HasTrianglesOfOneSizeNearWhereItWas) {
-  Halves halves;
-  TriangleMesh& whole = halves.mesh;
-  // Folds: every other vertex of the upper half nearer to the middle.
-  std::vector<char> isUpper(static_cast<std::size_t>(whole.vertices.rows()), 1);
-  for (const int v : whole.faces.topRows(halves.first).reshaped())
-    isUpper[static_cast<std::size_t>(v)] = 0;
-  for (Eigen::Index v = 0; v < whole.vertices.rows(); v += 2) {
-    if (isUpper[static_cast<std::size_t>(v)] != 0) whole.vertices.row(v) *= 0.9;
-  }
-  const TriangleMesh part = remeshedPart(whole, halves.first);
-  ASSERT_GT(part.faces.rows(), 0);
-  EXPECT_EQ(part.vertices.topRows(whole.vertices.rows()), whole.vertices);
-  // It takes the place of the old one.
-  Faces all(halves.first + part.faces.rows(), 3);
-  all << whole.faces.topRows(halves.first), part.faces;
-  const TriangleMesh together = submesh(part.vertices, all).mesh;
-  EXPECT_TRUE(isClosedAndOriented(together));
-  for (const auto& x :
-       part.vertices.bottomRows(part.vertices.rows() - whole.vertices.rows()).rowwise()) {
-    EXPECT_GT(x.norm(), 0.85);
-    EXPECT_LT(x.norm(), 1.0 + 1e-4);
-  }
-  const Points& x = part.vertices;
-  const double edge = (x.row(part.faces(0, 0)) - x.row(part.faces(0, 1))).norm();
-  EXPECT_LT(longestEdge(part.vertices, part.faces), 3.0 * edge);
-  EXPECT_LT(shareOfNeedles({part.vertices, part.faces}, 15.0), 0.02);
-}
-
-TEST(RemeshedPart, HangsOnNeitherLastDigitsNorMemory) {
-  const Halves halves;
-  const TriangleMesh part = remeshedPart(halves.mesh, halves.first);
-  std::vector<std::unique_ptr<TriangleMesh>> kept;
-  for (int round = 0; round < 4; ++round) {
-    TriangleMesh moved = halves.mesh;
-    for (Eigen::Index v = 0; v < moved.vertices.rows(); v += 3)
-      moved.vertices(v, round % 3) += 1e-12 * round;
-    kept.push_back(std::make_unique<TriangleMesh>(remeshedPart(moved, halves.first)));
-    ASSERT_EQ(kept.back()->faces.rows(), part.faces.rows()) << round;
-    EXPECT_EQ(kept.back()->faces, part.faces);
-    EXPECT_LT((kept.back()->vertices - part.vertices).cwiseAbs().maxCoeff(), 1e-6);
-  }
-}
-
-TEST(RemeshedPart, IsNoneOfWhatIsNoManifold) {
-  Halves halves;
-  TriangleMesh& whole = halves.mesh;
-  whole.faces.conservativeResize(whole.faces.rows() + 1, 3);
-  whole.faces.row(whole.faces.rows() - 1) = whole.faces.row(0);
-  EXPECT_EQ(remeshedPart(whole, halves.first).faces.rows(), 0);
 }
 
 TEST(Refined, HasNoNeedlesWhereTheSurfaceIsFlat) {

@@ -28,7 +28,7 @@ struct Side {
   }
 
   double deflection(double length) const {
-    const Skin skin(slab.vertices, slab.faces, isFree, length, Vector::Zero(slab.vertices.rows()));
+    const Skin skin(slab.vertices, slab.faces, isFree, length);
     EXPECT_TRUE(skin.isSolvable());
     return skin.deflections(RowMatrix::Ones(slab.vertices.rows(), 1))(middle, 0);
   }
@@ -36,8 +36,7 @@ struct Side {
 
 TEST(Skin, OfAFlatBorderIsFlat) {
   const Side side;
-  const Vector none = Vector::Zero(side.slab.vertices.rows());
-  const Points rest = Skin(side.slab.vertices, side.slab.faces, side.isFree, 0.0, none).atRest();
+  const Points rest = Skin(side.slab.vertices, side.slab.faces, side.isFree, 0.0).atRest();
   EXPECT_LT((rest - side.slab.vertices).cwiseAbs().maxCoeff(), 1e-12);
 }
 
@@ -60,45 +59,13 @@ TEST(Skin, ThatIsStiffIsAClampedPlate) {
   EXPECT_NEAR(Side().deflection(kStiff), expected, 0.05 * expected);
 }
 
-TEST(Skin, OnSpringsLosesWavesByTheirLength) {
-  // z = a sin πx sin πy in [−1, 1]²: −Δz = 2π² z, so that κ/(κ + 2π² + (2π²)² ℓ²) of it is left.
-  constexpr double kPi = 3.14159265358979323846;
-  constexpr double kAmplitude = 1e-3;
-  constexpr double kSpring = 30.0;
-  const auto wave = [](const auto& x) { return std::sin(kPi * x[0]) * std::sin(kPi * x[1]); };
-  Side side;
-  const double top = side.slab.vertices.col(2).maxCoeff();
-  for (Eigen::Index v = 0; v < side.slab.vertices.rows(); ++v) {
-    if (side.isFree[static_cast<std::size_t>(v)] != 0)
-      side.slab.vertices(v, 2) += kAmplitude * wave(side.slab.vertices.row(v));
-  }
-  const auto left = [&](double length) {
-    const Vector springs = Vector::Constant(side.slab.vertices.rows(), kSpring);
-    const Points rest =
-        Skin(side.slab.vertices, side.slab.faces, side.isFree, length, springs).atRest();
-    double is = 0.0;
-    double was = 0.0;
-    for (Eigen::Index v = 0; v < rest.rows(); ++v) {
-      if (side.isFree[static_cast<std::size_t>(v)] == 0) continue;
-      const double shape = wave(side.slab.vertices.row(v));
-      is += (rest(v, 2) - top) * shape;
-      was += (side.slab.vertices(v, 2) - top) * shape;
-    }
-    return is / was;
-  };
-  const double squared = 2.0 * kPi * kPi;
-  EXPECT_NEAR(left(0.0), kSpring / (kSpring + squared), 0.005);
-  // The border holds the slope, which the wave has there, too.
-  EXPECT_LT(left(0.3), kSpring / (kSpring + squared + 0.09 * squared * squared) + 0.05);
-}
-
 TEST(Skin, JoinsWhatItHangsOnWithoutACrease) {
   // A capsule's end, cut off where it begins to be round.
   TriangleMesh mesh = capsule(1.0, 4.0, 32);
   std::vector<char> isFree;
   for (const auto& x : mesh.vertices.rowwise()) isFree.push_back(x[2] > 1.9 ? 1 : 0);
   const auto sharp = [&](double length) {
-    const Skin skin(mesh.vertices, mesh.faces, isFree, length, Vector::Zero(mesh.vertices.rows()));
+    const Skin skin(mesh.vertices, mesh.faces, isFree, length);
     return shareOfSharpEdges({skin.atRest(), mesh.faces}, 40.0);
   };
   EXPECT_GT(sharp(0.0), 0.0);
