@@ -6,9 +6,19 @@ if(NOT MASSPROPS_LINK_STATICALLY)
   return()
 endif()
 
+# Beside what compiles: nothing but the linker waits for them, and much of it is done on one core.
 set(_static ${PROJECT_SOURCE_DIR}/build/static-libraries)
-execute_process(COMMAND ${PROJECT_SOURCE_DIR}/scripts/build_static_libraries.sh ${_static}
+set(_libraries "")
+foreach(library IN ITEMS gmp gmpxx mpfr nlopt)
+  list(APPEND _libraries ${_static}/lib/lib${library}.a)
+endforeach()
+set(_script ${PROJECT_SOURCE_DIR}/scripts/build_static_libraries.sh)
+execute_process(COMMAND dpkg-query -W libnlopt-dev libgmp-dev libmpfr-dev OUTPUT_VARIABLE _versions
                 COMMAND_ERROR_IS_FATAL ANY)
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/static_libraries.versions CONTENT "${_versions}")
+add_custom_command(OUTPUT ${_libraries} COMMAND ${_script} ${_static}
+                   DEPENDS ${_script} ${PROJECT_BINARY_DIR}/static_libraries.versions VERBATIM)
+add_custom_target(static_libraries DEPENDS ${_libraries})
 # The variables that CGAL finds them by; the headers are those of the system. It looks for GMP itself
 # again as long as it does not know the headers, and keeps what it found by two names.
 foreach(library IN ITEMS gmp gmpxx mpfr)

@@ -15,6 +15,7 @@ jobs=$(nproc)
 
 versions=$(dpkg-query -W -f '${Package} ${Version}\n' libnlopt-dev libgmp-dev libmpfr-dev)
 if [ -f "$folder/.complete" ] && [ "$(cat "$folder/.complete")" = "$versions" ]; then
+  touch "$folder"/lib/*.a # up to date
   exit 0
 fi
 rm -rf "$folder/lib" "$folder/include" "$folder/work"
