@@ -455,26 +455,28 @@ void carryCeilings(const Preparation& model, const Foundation& foundation, const
   judge(model, options, found);
 }
 
-/// Takes it where it is asked for or serves better: within the outer surface as it has become.
-void considerBestPossible(const Preparation& model, const Foundation& foundation,
-                          const Options& options, ProgressBar& bar, std::optional<Room>& known,
-                          Search& found) {
+/// Takes it where it is asked for or serves better: within the outer surface as it has become. What
+/// serves less, if both are there and it might serve more with round ends.
+std::optional<CavityResult> considerBestPossible(const Preparation& model,
+                                                 const Foundation& foundation,
+                                                 const Options& options, ProgressBar& bar,
+                                                 std::optional<Room>& known, Search& found) {
   found.shapeReason = "as asked for";
-  if (options.cavityShape == CavityShape::Offset) return;
+  if (options.cavityShape == CavityShape::Offset) return {};
   if (model.posed.open) {
     found.shapeReason = "the best possible cavity needs a closed surface";
-    return;
+    return {};
   }
   const bool hasMoved = moves(options) && found.cavity.status == CavityStatus::Found;
   const Room& room = roomFor(known, model, foundation, options, found);
   const Possible* possible = room.possible();
   if (possible == nullptr) {
     found.shapeReason = "what is possible is not known";
-    return;
+    return {};
   }
   found.shapeReason = "it comes near to what is possible";
   const std::string reason = reasonForBestPossible(options, possible->bound, found);
-  if (reason.empty()) return;
+  if (reason.empty()) return {};
   bar.show(Schedule::kEnd, "Best possible cavity");
   takeLevels(possible->bound, found);
   CavityResult best;
@@ -491,19 +493,24 @@ void considerBestPossible(const Preparation& model, const Foundation& foundation
   if ((movesInwards(model, options) || hasMoved) && !servesBetter(found.task, best, found.cavity)) {
     found.shapeReason = "the best possible cavity's triangles serve no better";
     // It sees room where no offset surface has any.
-    if (found.cavity.status == CavityStatus::NoRoom && best.status == CavityStatus::NoGain)
+    if (found.cavity.status == CavityStatus::NoRoom && best.status == CavityStatus::NoGain) {
       found.cavity = std::move(best);
-    return;
+      return {};
+    }
+    if (worstMeasure(found)) return {};
+    return best;
   }
   const std::optional<double> worst = worstMeasure(found);
   CavityResult offsets = std::exchange(found.cavity, std::move(best));
   judge(model, options, found);
   found.shapeReason = reason;
-  if (options.cavityShape == CavityShape::BestPossible || !worst || worstMeasure(found) >= worst)
-    return;
+  if (options.cavityShape == CavityShape::BestPossible) return {};
+  if (!worst) return offsets;
+  if (worstMeasure(found) >= worst) return {};
   found.cavity = std::move(offsets);
   judge(model, options, found);
   found.shapeReason = "the best possible cavity serves less while its rooms are filled";
+  return {};
 }
 
 /// Where ends of an offset surface are not smooth.
@@ -526,6 +533,31 @@ void roundEnds(const Preparation& model, const Foundation& foundation, const Opt
   judge(model, options, found);
 }
 
+/// The cavity that served less as its ends were, or whose place one with round ends has taken.
+void takeIfBetter(const Preparation& model, const Foundation& foundation, const Options& options,
+                  ProgressBar& bar, std::optional<Room>& known, CavityResult other, Search& found) {
+  // What is possible is hardly known better.
+  constexpr double kNear = 0.01;
+  const bool isOffset = other.shape == CavityShape::Offset;
+  if (isOffset && gapToBound(*found.task.bound, inputBody(found.task),
+                             hollowBody(found.task, found.cavity)) <= kNear)
+    return;
+  const std::string reason = std::exchange(
+      found.shapeReason, isOffset ? "with round ends it serves more than the best possible cavity"
+                                  : "with smooth ends the offset surface serves less");
+  CavityResult taken = std::exchange(found.cavity, std::move(other));
+  found.cavity.effort = taken.effort;
+  roundEnds(model, foundation, options, bar, known, found);
+  if (servesBetter(found.task, found.cavity, taken)) {
+    judge(model, options, found);
+    return;
+  }
+  taken.effort = found.cavity.effort;
+  found.cavity = std::move(taken);
+  found.shapeReason = reason;
+  judge(model, options, found);
+}
+
 Search bestOfShapes(const Preparation& model, const Foundation& foundation, const Options& options,
                     OffsetSearch when, ProgressBar& bar) {
   Search result = movesInwards(model, options)
@@ -534,8 +566,11 @@ Search bestOfShapes(const Preparation& model, const Foundation& foundation, cons
   result.verdictBefore = makeVerdict(options, model.posed, model.posed.vertices);
   judge(model, options, result);
   std::optional<Room> known;
-  considerBestPossible(model, foundation, options, bar, known, result);
+  std::optional<CavityResult> other =
+      considerBestPossible(model, foundation, options, bar, known, result);
   roundEnds(model, foundation, options, bar, known, result);
+  if (other && !moves(options))
+    takeIfBetter(model, foundation, options, bar, known, *std::move(other), result);
   if (options.cavityShape == CavityShape::Offset && options.overhangAngle > 0.0)
     carryCeilings(model, foundation, options, bar, result);
   return result;
