@@ -10,6 +10,7 @@
 #include "core/base/tolerances.h"
 #include "core/best/best_cavity.h"
 #include "core/best/rounded_ends.h"
+#include "core/goals/objective.h"
 #include "core/goals/registry.h"
 #include "core/mesh/components.h"
 #include "core/model/frame.h"
@@ -235,8 +236,8 @@ Search searchOffsets(const Preparation& model, const Foundation& foundation, con
   if (instead && !isSolidEnough &&
       (isOutOfReach || !keepsConstraints(result.task, result.cavity))) {
     CavityTask task = taskFor(*instead, kSlantedClearance);
-    task.bound.reset();        // of another objective
-    task.weights.volume = 0.0; // for it would be bought with the constraints
+    task.bound.reset(); // of another objective
+    task.weights = insteadOfConstraints(task.weights);
     CavityResult other = searchFor(task);
     other.effort += result.cavity.effort;
     if (isUseless(result.task, other)) other.status = CavityStatus::NoGain;
@@ -533,9 +534,10 @@ void roundEnds(const Preparation& model, const Foundation& foundation, const Opt
   judge(model, options, found);
 }
 
-/// The cavity that served less as its ends were, or whose place one with round ends has taken.
-void takeIfBetter(const Preparation& model, const Foundation& foundation, const Options& options,
-                  ProgressBar& bar, std::optional<Room>& known, CavityResult other, Search& found) {
+/// Ends are round only after one of the shapes was taken: the other one takes its place if it
+/// serves more then.
+void reconsider(const Preparation& model, const Foundation& foundation, const Options& options,
+                ProgressBar& bar, std::optional<Room>& known, CavityResult other, Search& found) {
   // What is possible is hardly known better.
   constexpr double kNear = 0.01;
   const bool isOffset = other.shape == CavityShape::Offset;
@@ -570,7 +572,7 @@ Search bestOfShapes(const Preparation& model, const Foundation& foundation, cons
       considerBestPossible(model, foundation, options, bar, known, result);
   roundEnds(model, foundation, options, bar, known, result);
   if (other && !moves(options))
-    takeIfBetter(model, foundation, options, bar, known, *std::move(other), result);
+    reconsider(model, foundation, options, bar, known, *std::move(other), result);
   if (options.cavityShape == CavityShape::Offset && options.overhangAngle > 0.0)
     carryCeilings(model, foundation, options, bar, result);
   return result;

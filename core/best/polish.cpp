@@ -2,6 +2,7 @@
 
 #include "core/contour/region.h"
 #include "core/contour/shape_guard.h"
+#include "core/goals/objective.h"
 #include "core/optimum/layered_quadric.h"
 #include "core/reduced/displacement.h"
 
@@ -46,8 +47,7 @@ Polished polish(const CavityTask& task, const LayeredQuadric& quadric, Moving mo
   const Moments outer = task.model.solidMoments + task.model.attached;
   const std::unique_ptr<Goal> instead =
       task.bound->isReachable() ? nullptr : task.goal.insteadOfConstraints();
-  Weights weights = task.weights;
-  if (instead) weights.volume = 0.0; // for it would be bought with the constraints
+  const Weights weights = instead ? insteadOfConstraints(task.weights) : task.weights;
   DisplacementTask displacement{instead ? *instead : task.goal,
                                 weights,
                                 task.model.fillings,

@@ -60,6 +60,11 @@ std::vector<BodyState> bodyStates(const Fillings& fillings, const BodyState& out
   return states;
 }
 
+Weights insteadOfConstraints(Weights weights) {
+  weights.volume = 0.0;
+  return weights;
+}
+
 double momentObjective(const Goal& goal, const Weights& weights, const std::vector<Moments>& states,
                        double volumeShare) {
   Vector values(static_cast<Eigen::Index>(states.size()));

@@ -40,6 +40,10 @@ Evaluation evaluateBody(const Goal& goal, const Weights& weights,
                         const std::vector<BodyState>& states, double volumeShare,
                         const Vector& volumeShareGradient);
 
+/// For what a goal wants instead of constraints that cannot be kept: none on the volume, which
+/// would be bought with them.
+Weights insteadOfConstraints(Weights weights);
+
 /// Largest in any state.
 double largestViolation(const Goal& goal, const std::vector<Moments>& states);
 

@@ -343,10 +343,9 @@ std::vector<Moments> findBest(const Goal& goal, const Weights& weights, const Mo
     if (states.empty()) states = findBody(goal, weights, solid, whole, cells, bound);
     const std::unique_ptr<Goal> instead = goal.insteadOfConstraints();
     if (instead && weights.constraints > 0.0 && largestViolation(goal, states) > kFeasibility) {
-      Weights alone = weights;
-      alone.volume = 0.0; // for it would be bought with the constraints
       OptimalBound other;
-      std::vector<Moments> nearer = findBest(*instead, alone, solid, whole, cells, other);
+      std::vector<Moments> nearer =
+          findBest(*instead, insteadOfConstraints(weights), solid, whole, cells, other);
       if (largestViolation(goal, nearer) < largestViolation(goal, states)) {
         states = std::move(nearer);
         bound.worth = std::move(other.worth);
