@@ -6,6 +6,7 @@
 #include "core/optimum/layered_quadric.h"
 #include "core/reduced/displacement.h"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -13,16 +14,24 @@
 namespace massprops {
 namespace {
 
-/// Where each vertex goes while the quadric rises by a unit of length; 0 for those that stay.
+constexpr double kTiny = 1e-300;
+
+/// Where each vertex goes while the quadric rises by as much as it does along a unit of length on
+/// the average; 0 for those that stay.
 Points directionsOf(const Region& region, Moving moving, const std::vector<char>& held,
                     const std::vector<On>& ons, const Points& vertices) {
+  constexpr double kSteep = 0.2; // where they are nearly parallel the crease would run away
+  constexpr double kFar = 3.0;   // so would the cut next to where the gradient vanishes
   Points directions = Points::Zero(vertices.rows(), 3);
+  Vector steepness = Vector::Zero(vertices.rows());
   InsetProbe probe(region);
   for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
     const On on = ons[static_cast<std::size_t>(v)];
     if (on != On::Cut && (on != On::Crease || moving == Moving::CutAlone)) continue;
-    if (!held.empty() && held[static_cast<std::size_t>(v)] != 0) continue;
     const Vec3 x = vertices.row(v).transpose();
+    const LayeredQuadric& layered = *region.quadric;
+    steepness[v] = gradientAt(layered.quadrics[layered.layerAt(x.z())], x).norm();
+    if (!held.empty() && held[static_cast<std::size_t>(v)] != 0) continue;
     const Vec3 cut = cutAt(region, x).slope;
     if (on == On::Cut) {
       directions.row(v) = -cut.transpose();
@@ -30,10 +39,13 @@ Points directionsOf(const Region& region, Moving moving, const std::vector<char>
     }
     const Vec3 inset = probe.at(x, region.wall).slope;
     const Vec3 along = cut - cut.dot(inset) * inset;
-    constexpr double kSteep = 0.2; // where they are nearly parallel the crease would run away
     if (along.squaredNorm() > kSteep)
       directions.row(v) = -(along / along.squaredNorm()).transpose();
   }
+  const auto count = static_cast<double>((steepness.array() > 0.0).count());
+  const double mean = steepness.sum() / std::max(count, 1.0);
+  for (Eigen::Index v = 0; v < vertices.rows(); ++v)
+    directions.row(v) *= std::min(mean / std::max(steepness[v], kTiny), kFar);
   return directions;
 }
 
@@ -45,8 +57,8 @@ Polished polish(const CavityTask& task, const LayeredQuadric& quadric, Moving mo
   const Region region{task.surface, task.wall, {}, quadric, edge};
   const Points directions = directionsOf(region, moving, held, contour.on, vertices);
   const Moments outer = task.model.solidMoments + task.model.attached;
-  const std::unique_ptr<Goal> instead =
-      task.bound->isReachable() ? nullptr : task.goal.insteadOfConstraints();
+  const bool isOutOfReach = task.bound && !task.bound->isReachable();
+  const std::unique_ptr<Goal> instead = isOutOfReach ? task.goal.insteadOfConstraints() : nullptr;
   const Weights weights = instead ? insteadOfConstraints(task.weights) : task.weights;
   DisplacementTask displacement{instead ? *instead : task.goal,
                                 weights,

@@ -17,12 +17,7 @@ struct QuadricAt {
 };
 
 QuadricAt quadricAt(const Moments& q, const Vec3& x) {
-  Vec3 linear(q[1], q[2], q[3]);
-  Mat3 halfHessian;
-  halfHessian << q[4], 0.5 * q[7], 0.5 * q[9], 0.5 * q[7], q[5], 0.5 * q[8], 0.5 * q[9], 0.5 * q[8],
-      q[6];
-  const Vec3 hx = halfHessian * x;
-  return {q[0] + linear.dot(x) + x.dot(hx), linear + 2.0 * hx};
+  return {q.dot(monomials(x)), gradientAt(q, x)};
 }
 
 /// Largest second derivative along any direction, or more.

@@ -16,6 +16,15 @@ inline Moments monomials(const Vec3& p) {
   return m;
 }
 
+/// Of the quadric with these coefficients of the monomials.
+inline Vec3 gradientAt(const Moments& quadric, const Vec3& p) {
+  Mat3 hessian;
+  hessian << 2.0 * quadric[4], quadric[7], quadric[9], //
+      quadric[7], 2.0 * quadric[5], quadric[8],        //
+      quadric[9], quadric[8], 2.0 * quadric[6];
+  return quadric.segment<3>(1) + hessian * p;
+}
+
 /// A quadric in each of the horizontal layers between some heights, one at least.
 struct LayeredQuadric {
   std::vector<double> heights; ///< ascending; one less than layers
