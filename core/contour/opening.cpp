@@ -178,7 +178,16 @@ std::optional<Vec3> OpeningProbe::placeAround(const Vec3& x, const Vec3& onSurfa
   Vec3 to = x;
   for (int i = 0; i < kHalvings; ++i) {
     const Vec3 middle = 0.5 * (from + to);
-    (depthAt(middle, false).value >= opening_.fits ? from : to) = middle;
+    const Sample depth = depthAt(middle, false);
+    const double away = (from - x).norm();
+    std::optional<Vec3> place = middle;
+    // Between walls that the ball just fits places are as good as in one plane.
+    if (depth.value < opening_.fits) place = placeNear(middle, depth, away);
+    if (place && (*place - x).norm() < away) {
+      from = *place;
+    } else {
+      to = middle;
+    }
   }
   if ((from - x).norm() > farthest) return {};
   return from;

@@ -26,6 +26,44 @@ Sample depthInBox(const Vec3& half, const Vec3& x) {
   return {depth, kAskew * Vec3(Vec3::Unit(axis) * (x[axis] > 0.0 ? -1.0 : 1.0))};
 }
 
+/// A plate with a round hole in its middle, as C-shaped as one outline takes, halfway up at z = 0.
+TriangleMesh plateWithHole(double outer, double inner, double thickness) {
+  constexpr int kPieces = 200;
+  constexpr double kSlit = 0.02;
+  std::vector<Vec2> outline;
+  const auto at = [](double radius, double angle) {
+    return Vec2(radius * std::cos(angle), radius * std::sin(angle));
+  };
+  const auto angleOf = [&](int i) { return kSlit + (2.0 * kPi - 2.0 * kSlit) * i / kPieces; };
+  for (int i = 0; i <= kPieces; ++i) outline.push_back(at(outer, angleOf(i)));
+  for (int i = kPieces; i >= 0; --i) outline.push_back(at(inner, angleOf(i)));
+  return shifted(prism(outline, thickness), {0.0, 0.0, -0.5 * thickness});
+}
+
+TEST(OpeningProbe, FindsTheNearestPlaceBesideAHoleInAPlateThatTheBallJustFits) {
+  const double fits = 0.15;
+  const double reach = 0.09;
+  const double half = 0.1501;
+  const double hole = 0.4;
+  const TriangleMesh outer = plateWithHole(1.0, hole, 2.0 * half);
+  const TriangleTree tree(outer.vertices, outer.faces);
+  const Opening opening{fits, reach};
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> number(0.0, 1.0);
+  OpeningProbe probe(tree, opening);
+  for (int i = 0; i < 1000; ++i) {
+    const double fromHole = fits * (0.7 + 0.3 * number(random));
+    const double height = (half - 0.1) * (2.0 * number(random) - 1.0);
+    const double angle = 0.5 + 5.0 * number(random); // off the slit
+    const Vec3 x((hole + fromHole) * std::cos(angle), (hole + fromHole) * std::sin(angle), height);
+    const double away =
+        std::hypot(fits - fromHole, std::max(std::abs(height) - (half - fits), 0.0));
+    const auto value = probe.at(x, probe.depthAt(x, false), 1.0, 0.03);
+    ASSERT_TRUE(value);
+    EXPECT_NEAR(value->value, reach - away, 0.05 * reach) << x.transpose();
+  }
+}
+
 TEST(OpeningProbe, FindsTheNearestPlaceInABox) {
   const double fits = 0.15;
   const double reach = 0.09;
