@@ -134,9 +134,10 @@ TEST(PipelineDraining, WorksOnAnOuterSurfaceThatMoves) {
 TEST(PipelineDraining, FillsWhatIsTooSmallForAHole) {
   // Two balls: a large one, and one whose cavity is narrower than the drill.
   const TriangleMesh model =
-      joined(scaled(sphere(16), 20), shifted(scaled(sphere(8), 3), {0, 30, 0}));
+      joined(scaled(sphere(16), 20), shifted(scaled(sphere(8), 4), {0, 30, 0}));
   Options options = floatsWithHoles(GoalKind::Mass, 1);
   options.innerLowerBound = 1.5;
+  options.drainDiameter = 5.5;
   options.cavityShape = CavityShape::BestPossible;
   const Result result = optimizeMassProperties(model, options);
   EXPECT_EQ(integer(result, "cavity_components"), 1);

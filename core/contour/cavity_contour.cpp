@@ -21,16 +21,41 @@ namespace {
 
 constexpr double kSliver = 8.0; // degrees; a target that leaves room to what follows
 
+/// The volume up to which parts of a cavity are dust: less than that of a cube as wide as the
+/// ball that opens it, or of one twice as wide, where all such parts are next to nothing.
+double volumeOfDust(std::vector<double> volumes, double ball) {
+  constexpr double kSmall = 8.0;     // balls' cubes
+  constexpr double kNothing = 0.002; // of the cavity
+  const double cube = std::pow(ball, 3);
+  std::sort(volumes.begin(), volumes.end());
+  double most = 0.0;
+  for (const double volume : volumes) {
+    if (volume >= cube) most += kNothing * volume;
+  }
+  double dust = cube;
+  for (const double volume : volumes) {
+    if (volume < cube) continue;
+    most -= volume;
+    if (most < 0.0 || volume > kSmall * cube) break;
+    dust = volume;
+  }
+  return dust;
+}
+
 /// Without dust, and without material that would lie loose in the cavity.
-Contour withoutLooseParts(const Contour& contour, double leastVolume) {
+Contour withoutLooseParts(const Contour& contour, double ball) {
   const Points& vertices = contour.mesh.vertices;
-  std::vector<Faces> kept = connectedComponents(vertices.rows(), contour.mesh.faces);
-  kept.erase(
-      std::remove_if(kept.begin(), kept.end(),
-                     [&](const Faces& part) { return signedVolume(vertices, part) < leastVolume; }),
-      kept.end());
-  Submesh part = submesh(vertices, joined(kept));
-  return partOf(contour, std::move(part.mesh), part.vertexOf);
+  std::vector<Faces> parts = connectedComponents(vertices.rows(), contour.mesh.faces);
+  std::vector<double> volumes;
+  volumes.reserve(parts.size());
+  for (const Faces& part : parts) volumes.push_back(signedVolume(vertices, part));
+  const double dust = volumeOfDust(volumes, ball);
+  std::vector<Faces> kept;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (volumes[i] > dust) kept.push_back(std::move(parts[i]));
+  }
+  Submesh some = submesh(vertices, joined(kept));
+  return partOf(contour, std::move(some.mesh), some.vertexOf);
 }
 
 Contour thinnedOut(Contour contour, double distance) {
@@ -198,7 +223,6 @@ std::optional<CavityContour> cavityContour(const OpenedSet& set,
                                            const std::optional<LayeredQuadric>& quadric,
                                            const ContourUse& use, const std::vector<Vec3>& solid) {
   ClearanceQuery fresh(set.surface);
-  const double leastVolume = std::pow(set.ball, 3);
   // Vertices on the border shall not count as too near for their last digits.
   constexpr double kMore = 3e-4;
   const Region region{set.surface,   (1.0 + kMore) * set.wall, set.opening, quadric, set.edge,
@@ -216,7 +240,7 @@ std::optional<CavityContour> cavityContour(const OpenedSet& set,
     // A large one takes as much memory as all that follows, and is seldom needed again.
     constexpr std::size_t kLarge = 200000; // corners
     if (lattice->corners.size() > kLarge) lattice.reset();
-    raw = withoutLooseParts(raw, leastVolume);
+    raw = withoutLooseParts(raw, set.ball);
     if (raw.mesh.faces.rows() == 0) return CavityContour{{}, set.edge, fresh};
     Contour contour = smoothed(region, set.edge, use, std::move(raw));
     ClearanceQuery clearance(set.surface);

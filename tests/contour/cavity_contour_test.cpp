@@ -66,6 +66,21 @@ TEST(CavityContour, FillsAlmostAllOfWhatABallLeaves) {
               3e-3 * volume);
 }
 
+TEST(CavityContour, HasNoRoomsOfAFewWallsBesideALargeOne) {
+  const double wall = 0.05;
+  // Its room is as wide as 1.8 walls.
+  const TriangleMesh small = scaled(sphere(12), 1.9 * wall);
+  const TriangleMesh both = joined(sphere(30), shifted(small, {2.0, 0.0, 0.0}));
+  for (const TriangleMesh& outer : {small, both}) {
+    const TriangleTree tree(outer.vertices, outer.faces);
+    const auto cavity = cavityContour(openedSet(tree, wall, 0.4 * wall), {});
+    ASSERT_TRUE(cavity);
+    const TriangleMesh& mesh = cavity->contour.mesh;
+    expectCavity(tree, wall, mesh);
+    EXPECT_EQ(connectedComponents(mesh.vertices.rows(), mesh.faces).size(), 1U);
+  }
+}
+
 TEST(CavityContour, LeavesCubesAroundPointsSolid) {
   const TriangleMesh outer = sphere(30);
   const TriangleTree tree(outer.vertices, outer.faces);
