@@ -3,6 +3,7 @@
 #include "core/base/stopwatch.h"
 #include "core/base/tolerances.h"
 #include "core/base/triangle.h"
+#include "core/best/moved_quadric.h"
 #include "core/best/polish.h"
 #include "core/best/uniform_wall.h"
 #include "core/contour/cavity_contour.h"
@@ -88,8 +89,24 @@ int adjustCut(const CavityTask& task, const LayeredQuadric& quadric, double edge
         polish(task, quadric, Moving::CutAlone, edge, held, contour, vertices);
     evaluations += polished.evaluations;
     if (polished.violation <= kFeasibility && !polished.isFarthest) break;
+    // A contour follows what is far from what is asked for.
+    if (polished.violation > OptimalBound::kReachable && !task.bound->isReachable()) break;
   }
   return evaluations;
+}
+
+/// What is left of what is possible.
+double gapOf(const CavityTask& task, const Body& body) {
+  return gapToBound(*task.bound, inputBody(task), body);
+}
+
+/// Whether a cavity shall be adjusted. Where none keeps the constraints there is no end to what
+/// would be tried for them, and steps along creases come of it.
+bool isWorthMoving(const CavityTask& task, const Body& unmoved, const Body& moved) {
+  constexpr double kMuch = 0.01; // of what is possible
+  if (!servesBetter(task, moved, unmoved)) return false;
+  return task.bound->isReachable() || moved.violation <= kFeasibility ||
+         task.goal.insteadOfConstraints() || gapOf(task, unmoved) - gapOf(task, moved) > kMuch;
 }
 
 /// Where the vertices of a contour might go, and the body with the cavity that they make.
@@ -217,8 +234,14 @@ CavityResult polished(const CavityTask& task, const LayeredQuadric& quadric, dou
   Polishing polishing(task, quadric, std::move(found));
   std::vector<Candidate> candidates;
   candidates.push_back(polishing.unmoved());
+  const Body unmoved = candidates.front().body;
   if (auto moved = polishing.withMovedCreases(wall)) candidates.push_back(*std::move(moved));
   candidates.push_back(polishing.adjusted());
+  candidates.erase(std::remove_if(candidates.begin() + 1, candidates.end(),
+                                  [&](const Candidate& candidate) {
+                                    return !isWorthMoving(task, unmoved, candidate.body);
+                                  }),
+                   candidates.end());
   std::stable_sort(
       candidates.begin(), candidates.end(),
       [&](const Candidate& a, const Candidate& b) { return servesBetter(task, a.body, b.body); });
@@ -278,10 +301,6 @@ private:
 };
 
 /// What is left of what is possible.
-double gapOf(const CavityTask& task, const Body& body) {
-  return gapToBound(*task.bound, inputBody(task), body);
-}
-
 double gapOf(const CavityTask& task, const CavityResult& result) {
   return result.status == CavityStatus::Found ? gapOf(task, hollowBody(task, result)) : 1.0;
 }
@@ -289,58 +308,103 @@ double gapOf(const CavityTask& task, const CavityResult& result) {
 /// A cavity, or what it will be like.
 struct Made {
   CavityResult result;
-  bool isFinished = true; ///< else hardly polished and not inspected
+  bool isFinished = true;  ///< else hardly polished and not inspected
+  double unresolved = 0.0; ///< see `Contour`
 };
 
 /// Of a contour, hardly polished.
 struct Rough {
-  Points inner; ///< delivered
+  Points vertices; ///< working frame
+  Points inner;    ///< delivered
   Body body;
 };
 
-Rough roughlyPolished(const CavityTask& task, double edge, const Contour& contour) {
+Rough roughlyPolished(const CavityTask& task, const LayeredQuadric& quadric, double edge,
+                      const Contour& contour) {
   const auto roughAt = [&](const Points& vertices) {
-    Rough rough{delivered(task, vertices), {}};
+    Rough rough{vertices, delivered(task, vertices), {}};
     rough.body = hollowBody(task, rough.inner, contour.mesh.faces);
     return rough;
   };
   Points vertices = contour.mesh.vertices;
-  adjustCut(task, task.bound->worth, edge, {}, contour, vertices);
+  adjustCut(task, quadric, edge, {}, contour, vertices);
   Rough moved = roughAt(vertices);
   Rough unmoved = roughAt(contour.mesh.vertices);
-  return servesBetter(task, moved.body, unmoved.body) ? std::move(moved) : std::move(unmoved);
+  return isWorthMoving(task, unmoved.body, moved.body) ? std::move(moved) : std::move(unmoved);
 }
 
-/// Whether a cavity is worth finishing, by what it leaves of what is possible and its area.
-using IsEnough = std::function<bool(double gap, double area)>;
+/// How far most vertices of the cut went at most. What is next to them stayed.
+double stepOf(const Contour& contour, const Points& vertices) {
+  constexpr double kMost = 0.95;
+  std::vector<double> steps;
+  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
+    if (contour.on[static_cast<std::size_t>(v)] == On::Cut)
+      steps.push_back((vertices.row(v) - contour.mesh.vertices.row(v)).norm());
+  }
+  if (steps.empty()) return 0.0;
+  const auto most =
+      steps.begin() + static_cast<std::ptrdiff_t>(kMost * static_cast<double>(steps.size() - 1));
+  std::nth_element(steps.begin(), most, steps.end());
+  return *most;
+}
 
-/// In cubes of the set's edge.
-Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, Room& room,
-              const IsEnough& isEnough) {
-  const LayeredQuadric& quadric = task.bound->worth;
+/// Whether a cavity is worth finishing, by what it leaves of what is possible, its area, and at how
+/// many corners cubes are too large for it.
+using IsEnough = std::function<bool(double gap, double area, double unresolved)>;
+
+/// In cubes of the set's edge. `quadric`: the limit's, which is known of larger cells, and goes
+/// with the cut where this wants to go so far that it would leave steps along its creases.
+Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, LayeredQuadric& quadric,
+              Room& room, const IsEnough& isEnough) {
   CavityResult rough;
   ContourUse use;
   use.loss = [&](const Contour& contour) {
-    return gapOf(task, roughlyPolished(task, deliverable.edge, contour).body);
+    return gapOf(task, roughlyPolished(task, quadric, deliverable.edge, contour).body);
   };
-  if (isEnough)
-    use.isWorthIt = [&](const Contour& contour) {
-      Rough polished = roughlyPolished(task, deliverable.edge, contour);
-      const bool isWorth =
-          polished.body.violation > kFeasibility ||
-          isEnough(gapOf(task, polished.body), surfaceArea(polished.inner, contour.mesh.faces));
-      if (!isWorth) rough = resultOf(std::move(polished.inner), contour.mesh.faces, {});
+  constexpr double kStep = 0.25; // edges
+  constexpr int kMoves = 3;
+  int moves = 0;
+  bool hasMoved = false;
+  use.isWorthIt = [&](const Contour& contour) {
+    if (!isEnough && moves >= kMoves) return true;
+    Rough polished = roughlyPolished(task, quadric, deliverable.edge, contour);
+    const bool isWorth =
+        !isEnough || polished.body.violation > kFeasibility ||
+        isEnough(gapOf(task, polished.body), surfaceArea(polished.inner, contour.mesh.faces),
+                 contour.unresolved);
+    if (!isWorth) rough = resultOf(std::move(polished.inner), contour.mesh.faces, {});
+    if (!isWorth || moves >= kMoves ||
+        stepOf(contour, polished.vertices) <= kStep * deliverable.edge)
       return isWorth;
-    };
+    if (auto moved = quadricThrough(quadric, contour, polished.vertices)) {
+      quadric = *std::move(moved);
+      hasMoved = true;
+    }
+    return !hasMoved;
+  };
+  std::vector<Vec3> crossing;
+  const auto contourOf = [&](const OpenedSet& set) {
+    for (;; ++moves) {
+      hasMoved = false;
+      std::optional<CavityContour> found = cavityContour(set, quadric, use, crossing);
+      const bool isNone = !found || found->contour.mesh.faces.rows() == 0;
+      if (isNone && moves > 0 && moves <= kMoves) {
+        quadric = task.bound->worth; // of which there is one
+        moves = kMoves;
+      } else if (!hasMoved) {
+        return found;
+      }
+    }
+  };
   const double roomy = wallBeforeRounding(task);
   double wall = task.wall;
   CavityResult result;
-  std::vector<Vec3> crossing;
+  double unresolved = 0.0;
   constexpr int kRounds = 3;
   for (int round = 1; round <= kRounds; ++round) {
     if (deliverable.wall < roomy || round > 1) wall += roomy - task.wall;
     const OpenedSet set = wall <= deliverable.wall ? deliverable : withWall(deliverable, wall);
-    std::optional<CavityContour> found = cavityContour(set, quadric, use, crossing);
+    std::optional<CavityContour> found = contourOf(set);
     if (!found || found->contour.mesh.faces.rows() == 0) {
       result = {};
       // Where there is room the limit's body is the solid one.
@@ -349,7 +413,8 @@ Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, Room& room,
                                 : "the best possible cavity cannot be resolved";
       break;
     }
-    if (!found->isFinished) return {std::move(rough), false};
+    unresolved = found->contour.unresolved;
+    if (!found->isFinished) return {std::move(rough), false, unresolved};
     result = polished(task, quadric, wall, *std::move(found));
     result.effort.rounds = round;
     if (result.inspection.isClean()) break;
@@ -373,7 +438,7 @@ Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, Room& room,
       result.status = CavityStatus::NoGain;
     }
   }
-  return {std::move(result), true};
+  return {std::move(result), true, unresolved};
 }
 
 /// Whether the quadric leaves room on both sides.
@@ -388,7 +453,8 @@ constexpr double kUncut = 1.2; // as large as they are behind a wall alone
 
 /// Of cubes that leave little of what is possible: by what larger ones leave, where that depends
 /// on the goal.
-double edgeThatWillDo(const CavityTask& task, const OpenedSet& deliverable) {
+double edgeThatWillDo(const CavityTask& task, const OpenedSet& deliverable,
+                      const LayeredQuadric& quadric) {
   constexpr double kLarger = 2.0;
   constexpr double kWanted = 0.010;  // before all is polished
   constexpr double kCarrying = 0.85; // ceilings that shall carry themselves ask for more
@@ -399,11 +465,11 @@ double edgeThatWillDo(const CavityTask& task, const OpenedSet& deliverable) {
   double gap = 0.0;
   ContourUse use;
   use.isWorthIt = [&](const Contour& contour) {
-    const Body body = roughlyPolished(task, coarse.edge, contour).body;
+    const Body body = roughlyPolished(task, quadric, coarse.edge, contour).body;
     if (body.violation <= kFeasibility) gap = gapOf(task, body);
     return false;
   };
-  cavityContour(coarse, task.bound->worth, use);
+  cavityContour(coarse, quadric, use);
   if (gap <= 0.0) return deliverable.edge;
   // In steps: the last digits of the gap depend on where the model lies.
   constexpr double kSteps = 4.0;                                        // that double the edge
@@ -439,31 +505,44 @@ CavityResult inFineCubes(const CavityTask& task, OpenedSet deliverable, Room& ro
   const std::array<double, 2> roughlyEnough{more * 0.018, 0.0275}; // before all is polished
   constexpr double kWanted = 0.01;
   constexpr double kWantedOfMany = 0.02;
-  deliverable.edge = edgeThatWillDo(task, deliverable);
+  LayeredQuadric quadric = task.bound->worth;
+  deliverable.edge = edgeThatWillDo(task, deliverable, quadric);
   const auto edgeFor = [&](double gap, double wanted) {
     return deliverable.edge * std::clamp(std::sqrt(wanted / gap), 0.5, 0.8);
+  };
+  const auto areTooLarge = [&](double unresolved) {
+    constexpr double kFrayed = 0.0005;
+    return unresolved > kFrayed && deliverable.edge > kResolves * deliverable.ball;
   };
   const auto isEnough = [&](double gap, double area, double limit) {
     return gap <= limit || edgeOfCubes(area, cubesWorth(gap, more)) > edgeFor(gap, kWanted);
   };
   const auto isRoughlyEnough = [&](std::size_t i) {
-    return [&, i](double gap, double area) { return isEnough(gap, area, roughlyEnough[i]); };
+    return [&, i](double gap, double area, double unresolved) {
+      return isEnough(gap, area, roughlyEnough[i]) && !areTooLarge(unresolved);
+    };
   };
-  Made best = cavityOf(task, deliverable, room, isRoughlyEnough(0));
+  Made best = cavityOf(task, deliverable, quadric, room, isRoughlyEnough(0));
   double edgeOfBest = deliverable.edge;
   for (std::size_t i = 0; i < enough.size(); ++i) {
     const double gap = gapOf(task, best.result);
     const double area = surfaceArea(best.result.inner, best.result.cavity.faces);
-    if (isEnough(gap, area, enough[i]) || best.result.status == CavityStatus::NoRoom) break;
+    if (best.result.status == CavityStatus::NoRoom) break;
+    const bool isFrayed = areTooLarge(best.unresolved);
+    if (isEnough(gap, area, enough[i]) && !isFrayed) break;
     const bool areMany = edgeOfCubes(area, kManyCubes) > edgeFor(gap, kWanted);
     const bool isNone = best.result.cavity.faces.rows() == 0;
-    deliverable.edge = isNone ? edgeThatResolves(deliverable.edge, deliverable.ball)
-                              : edgeFor(gap, areMany ? kWantedOfMany : kWanted);
+    deliverable.edge = isNone     ? edgeThatResolves(deliverable.edge, deliverable.ball)
+                       : isFrayed ? std::max(0.5 * deliverable.edge, kResolves * deliverable.ball)
+                                  : edgeFor(gap, areMany ? kWantedOfMany : kWanted);
     if (deliverable.edge < kLeastEdge) break;
     const bool isLast = i + 1 == enough.size();
-    Made finer = cavityOf(task, deliverable, room, isLast ? IsEnough() : isRoughlyEnough(i + 1));
+    Made finer =
+        cavityOf(task, deliverable, quadric, room, isLast ? IsEnough() : isRoughlyEnough(i + 1));
     finer.result.effort += best.result.effort;
-    const bool isBetter = servesBetter(task, finer.result, best.result);
+    constexpr double kLittleMore = 0.002; // of what is possible, where ends get smooth
+    const bool isBetter = servesBetter(task, finer.result, best.result) ||
+                          (isFrayed && gapOf(task, finer.result) <= gap + kLittleMore);
     best.result.effort = finer.result.effort;
     if (!isBetter) break;
     best = std::move(finer);
@@ -472,7 +551,7 @@ CavityResult inFineCubes(const CavityTask& task, OpenedSet deliverable, Room& ro
   deliverable.edge = std::max(deliverable.edge, kLeastEdge);
   if (best.isFinished) return std::move(best.result);
   deliverable.edge = edgeOfBest;
-  Made finished = cavityOf(task, deliverable, room, {});
+  Made finished = cavityOf(task, deliverable, quadric, room, {});
   finished.result.effort += best.result.effort;
   return std::move(finished.result);
 }
@@ -552,9 +631,11 @@ CavityResult bestPossibleCavity(const CavityTask& task, const OpenedSet& deliver
   Room room(task.surface, task.wall);
   std::optional<CavityResult> walled;
   if (!deliverable.fill) walled = uniformlyWalled(task, deliverable);
-  CavityResult result = walled                     ? *std::move(walled)
-                        : cubes == Cubes::OfTheSet ? cavityOf(task, deliverable, room, {}).result
-                                                   : inFineCubes(task, deliverable, room);
+  LayeredQuadric quadric = task.bound->worth;
+  CavityResult result = walled ? *std::move(walled)
+                        : cubes == Cubes::OfTheSet
+                            ? cavityOf(task, deliverable, quadric, room, {}).result
+                            : inFineCubes(task, deliverable, room);
   if (result.status == CavityStatus::Found) result.outer = task.surface.vertices();
   result.effort.secondsOptimization = time.seconds() - result.effort.secondsInspection;
   return result;

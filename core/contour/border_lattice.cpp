@@ -347,19 +347,20 @@ void addMissing(const Region& region, BorderLattice& lattice) {
 /// Of a cube that is cut more than once the least of the corners inside goes out, which may spoil
 /// the cubes around. `wild`: cubes to look at.
 void tame(std::vector<int> wild, BorderLattice& lattice) {
+  constexpr double kWell = 0.25; // edges
   while (!wild.empty()) {
     const int cube = wild.back();
     wild.pop_back();
     if (cutOnce()[lattice.cornersInside(cube)]) continue;
-    const auto valueInside = [&](int c) {
-      const Corner& corner = lattice.corners[at(c)];
-      return corner.isInside ? lattice.samplesAt(c).value() : kInfinity;
+    const auto valueInside = [&](int i) {
+      const Corner& corner = lattice.corners[at(i)];
+      return corner.isInside ? lattice.samplesAt(i).value() : kInfinity;
     };
     const auto& corners = lattice.cubes[at(cube)];
-    Corner& least =
-        lattice.corners[at(*std::min_element(corners.begin(), corners.end(), [&](int c, int d) {
-          return valueInside(c) < valueInside(d);
-        }))];
+    const int c = *std::min_element(corners.begin(), corners.end(),
+                                    [&](int a, int b) { return valueInside(a) < valueInside(b); });
+    if (valueInside(c) > kWell * lattice.edge) ++lattice.unresolved;
+    Corner& least = lattice.corners[at(c)];
     least.isInside = false;
     const Place place = least.place();
     for (int i = 0; i < 8; ++i) {

@@ -110,6 +110,8 @@ struct BorderLattice {
   std::deque<Corner> corners; ///< many: a vector that grows would hold them twice
   /// Corner i of a cube is the one at its place plus (i & 1, i >> 1 & 1, i >> 2).
   std::vector<std::array<int, 8>> cubes;
+  /// Corners well inside that went out because the cubes are too large for what is there.
+  std::size_t unresolved = 0;
 
   /// Numbers; −1: there is none.
   int cubeAt(const Place& place) const;

@@ -326,7 +326,7 @@ private:
 } // namespace
 
 Contour partOf(const Contour& contour, TriangleMesh mesh, const std::vector<int>& vertexOf) {
-  Contour part{std::move(mesh), {}};
+  Contour part{std::move(mesh), {}, contour.unresolved};
   part.on.reserve(vertexOf.size());
   for (const int v : vertexOf) part.on.push_back(contour.on[static_cast<std::size_t>(v)]);
   return part;
@@ -336,7 +336,12 @@ Contour dualContour(const BorderLattice& lattice) {
   DualContouring contouring(lattice);
   contouring.placeVertices();
   contouring.connect();
-  return std::move(contouring).result();
+  Contour contour = std::move(contouring).result();
+  if (!lattice.corners.empty()) {
+    contour.unresolved =
+        static_cast<double>(lattice.unresolved) / static_cast<double>(lattice.corners.size());
+  }
+  return contour;
 }
 
 } // namespace massprops

@@ -17,6 +17,8 @@ struct Contour {
   /// these do not overlap. [JU06]
   TriangleMesh mesh;
   std::vector<On> on; ///< for every vertex
+  /// Share of the lattice's corners at which its cubes are too large for the region.
+  double unresolved = 0.0;
 };
 
 /// Some vertices of a contour and the faces between them. `vertexOf`: for every vertex of `mesh`
