@@ -538,12 +538,7 @@ void roundEnds(const Preparation& model, const Foundation& foundation, const Opt
 /// serves more then.
 void reconsider(const Preparation& model, const Foundation& foundation, const Options& options,
                 ProgressBar& bar, std::optional<Room>& known, CavityResult other, Search& found) {
-  // What is possible is hardly known better.
-  constexpr double kNear = 0.01;
   const bool isOffset = other.shape == CavityShape::Offset;
-  if (isOffset && gapToBound(*found.task.bound, inputBody(found.task),
-                             hollowBody(found.task, found.cavity)) <= kNear)
-    return;
   const std::string reason = std::exchange(
       found.shapeReason, isOffset ? "with round ends it serves more than the best possible cavity"
                                   : "with smooth ends the offset surface serves less");
