@@ -391,7 +391,6 @@ struct MissedGoal {
   GoalKind goal;
   CavityShape shape;
   const char* words; ///< of the number that is told of both bodies
-  bool isDelivered;  ///< whether none was found to come nearer
 };
 
 class BodyThatComesNearest : public ::testing::TestWithParam<MissedGoal> {};
@@ -416,20 +415,16 @@ TEST_P(BodyThatComesNearest, IsNotFartherThanTheDeliveredOneInWhatIsTold) {
   };
   const double delivered = told("with the best cavity found");
   EXPECT_GT(delivered, 0.0) << message;
-  EXPECT_EQ(message.find("none was found to come nearer") != std::string::npos, missed.isDelivered)
-      << message;
-  if (missed.isDelivered) return;
   EXPECT_LT(told("with the nearest one found"), delivered) << message;
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Samples, BodyThatComesNearest,
     ::testing::Values(
-        MissedGoal{"leaning_egg", GoalKind::Spin, CavityShape::Offset, "off the axis", false},
-        MissedGoal{"leaning_egg", GoalKind::Spin, CavityShape::BestPossible, "off the axis", true},
-        MissedGoal{"toy_dog", GoalKind::Hang, CavityShape::Offset, "off the plumb line", false},
-        MissedGoal{"bath_duck", GoalKind::Hang, CavityShape::BestPossible, "off the plumb line",
-                   false}));
+        MissedGoal{"leaning_egg", GoalKind::Spin, CavityShape::Offset, "off the axis"},
+        MissedGoal{"leaning_egg", GoalKind::Spin, CavityShape::BestPossible, "off the axis"},
+        MissedGoal{"toy_dog", GoalKind::Hang, CavityShape::Offset, "off the plumb line"},
+        MissedGoal{"bath_duck", GoalKind::Hang, CavityShape::BestPossible, "off the plumb line"}));
 
 TEST(OptimalBound, IsTheLeastOfAllForSpinAndYoYoWithinAPerCent) {
   for (const char* sample : {"tilted_ellipsoid_top", "uneven_yo_yo", "roly_poly", "game_piece"}) {
