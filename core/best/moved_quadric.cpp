@@ -1,46 +1,46 @@
 #include "core/best/moved_quadric.h"
 
+#include "core/contour/region.h"
+
 #include <Eigen/QR>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 namespace massprops {
 namespace {
 
-/// Of one layer: the cut is to go through some points, those of what else there is stay on their
-/// side.
+/// Of one layer: its cut through some points, its values at others as they are, as far as that
+/// goes.
 Moments quadricThrough(const Moments& quadric, const Points& onCut, const Points& others) {
   constexpr double kOthers = 0.03; // of the weight of points on the cut
   constexpr double kFlat = 0.05;   // of the mean gradient: next to where it vanishes
   const Eigen::Index count = onCut.rows() + others.rows();
+  const auto at = [&](Eigen::Index i) {
+    return Vec3((i < onCut.rows() ? onCut.row(i) : others.row(i - onCut.rows())).transpose());
+  };
+  Vector steepness(count);
+  for (Eigen::Index i = 0; i < count; ++i) steepness[i] = gradientAt(quadric, at(i)).norm();
+  const double least = kFlat * steepness.head(onCut.rows()).mean();
   RowMatrix rows(count, 10);
   Vector wanted = Vector::Zero(count);
-  double mean = 0.0;
   for (Eigen::Index i = 0; i < count; ++i) {
     const bool isOnCut = i < onCut.rows();
-    const Vec3 x = (isOnCut ? onCut.row(i) : others.row(i - onCut.rows())).transpose();
-    const double steepness = gradientAt(quadric, x).norm();
-    if (isOnCut) mean += steepness / static_cast<double>(onCut.rows());
-    const double weight = (isOnCut ? 1.0 : kOthers) / std::max(steepness, kFlat * mean);
-    rows.row(i) = weight * monomials(x).transpose();
-    if (isOnCut) wanted[i] = -weight * quadric.dot(monomials(x));
+    const double weight = (isOnCut ? 1.0 : kOthers) / std::max(steepness[i], least);
+    const Moments ofPoint = monomials(at(i));
+    rows.row(i) = weight * ofPoint.transpose();
+    if (isOnCut) wanted[i] = -weight * quadric.dot(ofPoint);
   }
   return quadric + Moments(rows.completeOrthogonalDecomposition().solve(wanted));
-}
-
-double squaredDistance(const Moments& quadric, const Vec3& x) {
-  const double value = quadric.dot(monomials(x));
-  const double squaredSteepness = gradientAt(quadric, x).squaredNorm();
-  return value * value / std::max(squaredSteepness, std::numeric_limits<double>::min());
 }
 
 } // namespace
 
 std::optional<LayeredQuadric> quadricThrough(const LayeredQuadric& quadric, const Contour& contour,
                                              const Points& vertices) {
+  constexpr double kNoTransition = 0.0;
   constexpr double kNear = 0.5; // of how far they went, root mean squares
   double moved = 0.0;
   double left = 0.0;
@@ -57,7 +57,7 @@ std::optional<LayeredQuadric> quadricThrough(const LayeredQuadric& quadric, cons
                                             vertices(others, Eigen::all));
     for (const Eigen::Index v : onCut) {
       moved += (vertices.row(v) - contour.mesh.vertices.row(v)).squaredNorm();
-      left += squaredDistance(result.quadrics[layer], vertices.row(v).transpose());
+      left += std::pow(cutAt(result, kNoTransition, vertices.row(v).transpose()).value, 2);
     }
   }
   if (left > kNear * kNear * moved) return {};
