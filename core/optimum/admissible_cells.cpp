@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace massprops {
@@ -40,14 +42,20 @@ Moments partMoments(const RegionParts& region, const RegionPart& part, double ed
 
 constexpr int kNone = -1;
 
-/// An octree that is fine where the border of the region may be. Levels count upwards from the
-/// parts of border cells; 1 are the cells.
+/// From the middle of a cube of edge 1 to those of its eighths.
+Vec3 stepTo(int corner) {
+  return {(corner & 1) != 0 ? 0.25 : -0.25, (corner & 2) != 0 ? 0.25 : -0.25,
+          (corner & 4) != 0 ? 0.25 : -0.25};
+}
+
+/// An octree that is fine where the border of the region may be, and finest where that is no plane.
+/// Levels count upwards from the parts of border cells; 1 are the cells.
 class RegionSampler {
 public:
   RegionSampler(const TriangleTree& surface, double wall, double edge, double slack)
       : surface_(surface), wall_(wall), edge_(edge), slack_(slack) {}
 
-  void add(const Vec3& centre) { visit(centre, kTop, kNone, {}); }
+  void add(const Vec3& centre) { visit(centre, kTop, 0, kNone, {}); }
 
   static constexpr int kTop = 4;
   static double topEdge(double edge) { return edge * (1 << (kTop - 1)); }
@@ -74,8 +82,8 @@ private:
     return best;
   }
 
-  /// `near`: a point of the surface, if any is known.
-  void visit(const Vec3& centre, int level, int cell, const TriangleTree::Hit& near) {
+  /// Down to level `finest` ≤ 0. `near`: a point of the surface, if any is known.
+  void visit(const Vec3& centre, int level, int finest, int cell, const TriangleTree::Hit& near) {
     const double size = edge_ * std::ldexp(1.0, level - 1);
     const double half = 0.5 * std::sqrt(3.0) * size;
     if (near.face >= 0 && (centre - near.point).norm() <= wall_ - half) return;
@@ -83,7 +91,7 @@ private:
     const bool isSideKnown = ball.radius > 0.0;
     // So far outside no cube has anything to be hollow, and the middle of a border cell's part no
     // plane that would leave it any.
-    const double nothing = level > 0 ? half : half - wall_;
+    const double nothing = level > finest ? half : half - wall_;
     if (isSideKnown && !ball.isInside && ball.radius >= nothing) return;
     // Farther away the surface does not matter.
     constexpr double kAnywhere = std::numeric_limits<double>::infinity();
@@ -97,25 +105,28 @@ private:
     const TriangleTree::Hit nearest = surface_.clearance(centre, onSurface);
     if (!(nearest.squaredDistance < far * far)) {
       known_.push_back({centre, far, true});
-      parts_.push_back({centre, far, Vec3::UnitX(), level, cell});
+      add({centre, far, Vec3::UnitX(), level, cell}, nearest);
       return;
     }
     const double distance = std::sqrt(nearest.squaredDistance);
     if (distance <= wall_ - half) return;
     ball.radius = std::max(ball.radius, distance / (1.0 + slack));
     // Asked only where it tells the side of all parts: their middles are half as far as corners.
-    if (isSideKnown || ball.radius > 0.5 * half || level == 0) {
+    if (isSideKnown || ball.radius > 0.5 * half || level == finest) {
       if (!isSideKnown) ball.isInside = PointInMesh(surface_).contains(centre, onSurface);
       known_.push_back(ball);
       if (!ball.isInside && ball.radius >= nothing) return;
     }
-    if (level == 0 || (ball.isInside && ball.radius >= wall_ + half)) {
+    if (level == finest || (ball.isInside && ball.radius >= wall_ + half)) {
       const Vec3 away = (centre - nearest.point) / std::max(distance, 1e-300);
       const double depth = ball.isInside ? distance : -ball.radius;
-      parts_.push_back({centre, depth, (ball.isInside ? 1.0 : -1.0) * away, level, cell});
+      add({centre, depth, (ball.isInside ? 1.0 : -1.0) * away, level, cell}, nearest);
       return;
     }
-    if (level == 1) cell = borderCells_++;
+    if (level == 1) {
+      cell = borderCells_++;
+      nearest_.clear();
+    }
     const std::size_t known = known_.size();
     // The ball around the part that is farthest from the surface spares most of the others.
     const Vec3 away = centre - nearest.point;
@@ -123,11 +134,52 @@ private:
         (away.x() > 0.0 ? 1 : 0) + (away.y() > 0.0 ? 2 : 0) + (away.z() > 0.0 ? 4 : 0);
     for (int i = 0; i < 8; ++i) {
       const int corner = i ^ farthest;
-      const Vec3 step((corner & 1) != 0 ? 0.25 : -0.25, (corner & 2) != 0 ? 0.25 : -0.25,
-                      (corner & 4) != 0 ? 0.25 : -0.25);
-      visit(centre + size * step, level - 1, cell, nearest);
+      visit(centre + size * stepTo(corner), level - 1, finest, cell, nearest);
     }
+    if (level == 1 && !hasFlatBorder()) divideLastCell();
     known_.resize(known);
+  }
+
+  void add(const RegionPart& part, const TriangleTree::Hit& nearest) {
+    parts_.push_back(part);
+    if (part.level == 0) nearest_.push_back(nearest);
+  }
+
+  /// Whether the border may be in a part of a cell.
+  bool mayHaveBorder(const RegionPart& part) const {
+    return std::abs(part.depth - wall_) < 0.25 * std::sqrt(3.0) * edge_;
+  }
+
+  /// Whether the parts of the last cell at the border see the surface in about the same direction:
+  /// they do not where its faces meet at an edge, or from both sides of a thin room.
+  bool hasFlatBorder() const {
+    constexpr double kSame = 0.95; // cosine
+    const auto first = parts_.end() - static_cast<std::ptrdiff_t>(nearest_.size());
+    Vec3 sum = Vec3::Zero();
+    for (auto part = first; part != parts_.end(); ++part)
+      if (mayHaveBorder(*part)) sum += part->inwards;
+    const Vec3 mean = sum.normalized();
+    return std::all_of(first, parts_.end(), [&](const RegionPart& part) {
+      return !mayHaveBorder(part) || part.inwards.dot(mean) >= kSame;
+    });
+  }
+
+  /// Once more, where its border may be.
+  void divideLastCell() {
+    const std::vector<TriangleTree::Hit> nearest = std::move(nearest_);
+    const auto first = parts_.end() - static_cast<std::ptrdiff_t>(nearest.size());
+    const std::vector<RegionPart> parts(first, parts_.end());
+    parts_.erase(first, parts_.end());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      if (!mayHaveBorder(parts[i])) {
+        parts_.push_back(parts[i]);
+        continue;
+      }
+      for (int corner = 0; corner < 8; ++corner) {
+        const Vec3 middle = parts[i].centre + 0.5 * edge_ * stepTo(corner);
+        visit(middle, -1, -1, parts[i].cell, nearest[i]);
+      }
+    }
   }
 
   const TriangleTree& surface_;
@@ -135,6 +187,7 @@ private:
   double edge_;
   double slack_;
   std::vector<RegionPart> parts_;
+  std::vector<TriangleTree::Hit> nearest_; ///< to the parts of the last cell at the border
   std::vector<Ball> known_; ///< around the cubes that the present one is part of, and their parts
   int borderCells_ = 0;
 };
@@ -174,7 +227,7 @@ RegionParts admissibleParts(const TriangleTree& surface, double wall, int cells,
     int most = kNone;
     for (RegionPart& part : chunk) {
       most = std::max(most, part.cell);
-      if (part.level == 0) part.cell += known;
+      if (part.level <= 0) part.cell += known;
       all.parts.push_back(part);
     }
     known += most + 1;
@@ -238,7 +291,7 @@ double borderArea(const RegionParts& region) {
   int cells = 0;
   int last = kNone;
   for (const RegionPart& part : region.parts) {
-    const bool isHollow = part.depth + 0.25 * region.edge > region.wall;
+    const bool isHollow = part.depth + 0.25 * std::ldexp(region.edge, part.level) > region.wall;
     if (part.level > 0 || part.cell == last || !isHollow) continue;
     last = part.cell;
     ++cells;

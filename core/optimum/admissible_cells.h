@@ -51,8 +51,8 @@ constexpr double kCubesPerArea = 1.5;
 double borderArea(const RegionParts& region);
 
 /// Cubes, about `cells` of them in the model's bounding box. Those at the border of the region are
-/// divided once more, and the border is taken as a plane in each part: the region comes out too
-/// large at its edges, if anything, never too small.
+/// divided once more, twice where its parts do not face the same way, and the border is taken as a
+/// plane in each part: the region comes out too large at its edges, if anything, never too small.
 /// \pre the surface is closed and outward
 AdmissibleCells admissibleCells(const TriangleTree& surface, double wall, int cells = 20000);
 
