@@ -267,6 +267,47 @@ void findLeastAboutAxis(const Goal& goal, const Weights& weights, const Moments&
   bound.objectiveAtLeast = std::min(bound.objective, least->objective);
 }
 
+/// The constraints next to a body as conditions: its level is 0 less the largest of them.
+LinearConditions constraintsNear(const Goal& goal, const Moments& body) {
+  const auto affine = [&](const GoalConstraints& constraints) {
+    AffineRows rows(constraints.values.size(), 11);
+    rows.leftCols<10>() = constraints.gradients;
+    rows.col(10) = constraints.values - constraints.gradients * body;
+    return rows;
+  };
+  return linearConditions(affine(goal.equalities(body)), affine(goal.inequalities(body)),
+                          AffineRow::Unit(10));
+}
+
+/// Where constraints are out of reach there are many quadrics from which no step leads to a body
+/// that is nearer to them. All bodies' moments are a convex set, though, and constraints are nearly
+/// linear in them. [docs/math.md "The limit"]
+void findNearest(const Goal& goal, const Weights& weights, const Moments& solid,
+                 const Fillings& fillings, const AdmissibleCells& cells, OptimalBound& bound) {
+  const bool isOne = fillings.size() == 1 && !fillings.front().isPartial();
+  if (!isOne || bound.violation <= OptimalBound::kReachable || weights.constraints == 0.0) return;
+  constexpr int kMost = 4;
+  constexpr double kLess = 0.999;
+  const HollowBodies bodies(goal, weights, solid, fillings, cells);
+  for (int i = 0; i < kMost; ++i) {
+    const double known = bound.violation;
+    const LevelBound level =
+        greatestLevel(constraintsNear(goal, bound.massMoments), solid, fillings, cells);
+    const double violation = largestViolation(goal, level.states);
+    if (violation < bound.violation) {
+      bound.massMoments = level.states.front();
+      const double hollow = (solid[0] - bound.massMoments[0]) / (1.0 - fillings.front().density);
+      bound.objective = momentObjective(goal, weights, level.states, 1.0 - hollow / solid[0]);
+      bound.violation = violation;
+      bound.worth = level.worth;
+    }
+    const MinimizeResult found = bodies.bestFrom(level.worth.quadrics.front());
+    if (found.violation < bound.violation)
+      bound.violation = largestViolation(goal, take(bodies, found.x, bound));
+    if (bound.violation > kLess * known) break;
+  }
+}
+
 /// Numbers of the states without a level of contents, and of those that the proof, if any, rests
 /// on.
 std::vector<std::size_t> bindingStates(const Fillings& fillings, const LevelBound* proof) {
@@ -286,6 +327,11 @@ std::vector<T> chosen(const std::vector<T>& all, const std::vector<std::size_t>&
   result.reserve(numbers.size());
   for (const std::size_t i : numbers) result.push_back(all[i]);
   return result;
+}
+
+/// Those without a level of contents.
+Fillings wholeOf(const Fillings& fillings) {
+  return chosen(fillings, bindingStates(fillings, nullptr));
 }
 
 std::vector<LevelBound> levelsOf(const Goal& goal, const Moments& solid, const Fillings& fillings,
@@ -337,7 +383,7 @@ std::vector<Moments> findBest(const Goal& goal, const Weights& weights, const Mo
     unconstrained.constraints = 0.0;
     bound.objective = momentObjective(goal, unconstrained, chosen(states, binding), 1.0);
   } else {
-    const Fillings whole = chosen(fillings, bindingStates(fillings, nullptr));
+    const Fillings whole = wholeOf(fillings);
     if (weights.constraints > 0.0)
       states = takeBodyOfMass(goal, weights, solid, whole, cells, bound);
     if (states.empty()) states = findBody(goal, weights, solid, whole, cells, bound);
@@ -385,6 +431,7 @@ OptimalBound optimalBound(const Goal& goal, const Weights& weights, const Moment
   const bool isMeasured = goal.measure(solid).has_value();
   if (!isMeasured && bound.violation > OptimalBound::kReachable) {
     bound.levels = levelsOf(goal, solid, fillings, cells);
+    findNearest(goal, weights, solid, fillings, cells, bound);
   }
   bound.massMomentsInAll = bound.massMoments;
   bound.violationInAll = bound.violation;
@@ -400,6 +447,7 @@ OptimalBound withBodyWithin(const AdmissibleCells& opened, OptimalBound bound, c
   if (opened.rows() > 0) {
     findBest(goal, weights, solid, fillings, opened, other);
     other.levels = std::move(bound.levels);
+    if (!other.measure) findNearest(goal, weights, solid, fillings, opened, other);
   } else {
     other = bound;
     const std::vector<Moments> states(fillings.size(), solid);
@@ -414,6 +462,17 @@ OptimalBound withBodyWithin(const AdmissibleCells& opened, OptimalBound bound, c
   other.wantedLevel = bound.wantedLevel;
   other.outOfReach = std::move(bound.outOfReach);
   return other;
+}
+
+LayeredQuadric quadricWithin(const AdmissibleCells& smaller, const OptimalBound& bound,
+                             const Goal& goal, const Weights& weights, const Moments& solid,
+                             const Fillings& fillings) {
+  OptimalBound finer = bound;
+  const HollowBodies bodies(goal, weights, solid, wholeOf(fillings), smaller);
+  const Vector q = bodies.bestFrom(bound.worth.quadrics.front()).x;
+  finer.violation = largestViolation(goal, take(bodies, q, finer));
+  findNearest(goal, weights, solid, fillings, smaller, finer);
+  return finer.worth;
 }
 
 Vector offsetsTowards(const OptimalBound& bound, const Points& vertices, const Points& directions,
