@@ -138,6 +138,14 @@ public:
 
   Candidate adjusted() { return adjusted(found_.mesh.vertices); }
 
+  /// Empty: the constraints do not hold nearly.
+  std::optional<Candidate> withdrawn() const {
+    Points vertices = found_.mesh.vertices;
+    if (!withdrawFromWalls(task_, edge_, found_, vertices)) return std::nullopt;
+    const Body body = bodyAt(vertices);
+    return Candidate{std::move(vertices), body};
+  }
+
   /// Inspected. Vertices whose faces do not pass, or have become slivers, go back to where they
   /// were and stay there with those around them, while the others are adjusted anew.
   CavityResult passed(Points vertices) {
@@ -242,6 +250,13 @@ CavityResult polished(const CavityTask& task, const LayeredQuadric& quadric, dou
                                     return !isWorthMoving(task, unmoved, candidate.body);
                                   }),
                    candidates.end());
+  const bool isUnkept =
+      std::all_of(candidates.begin(), candidates.end(), [](const Candidate& candidate) {
+        return candidate.body.violation > kFeasibility;
+      });
+  if (isUnkept && task.bound->isReachable()) {
+    if (auto withdrawn = polishing.withdrawn()) candidates.push_back(*std::move(withdrawn));
+  }
   std::stable_sort(
       candidates.begin(), candidates.end(),
       [&](const Candidate& a, const Candidate& b) { return servesBetter(task, a.body, b.body); });
@@ -333,27 +348,11 @@ Rough roughlyPolished(const CavityTask& task, const LayeredQuadric& quadric, dou
   return isWorthMoving(task, unmoved.body, moved.body) ? std::move(moved) : std::move(unmoved);
 }
 
-/// How far most vertices of the cut went at most. What is next to them stayed.
-double stepOf(const Contour& contour, const Points& vertices) {
-  constexpr double kMost = 0.95;
-  std::vector<double> steps;
-  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
-    if (contour.on[static_cast<std::size_t>(v)] == On::Cut)
-      steps.push_back((vertices.row(v) - contour.mesh.vertices.row(v)).norm());
-  }
-  if (steps.empty()) return 0.0;
-  const auto most =
-      steps.begin() + static_cast<std::ptrdiff_t>(kMost * static_cast<double>(steps.size() - 1));
-  std::nth_element(steps.begin(), most, steps.end());
-  return *most;
-}
-
 /// Whether a cavity is worth finishing, by what it leaves of what is possible, its area, and at how
 /// many corners cubes are too large for it.
 using IsEnough = std::function<bool(double gap, double area, double unresolved)>;
 
-/// In cubes of the set's edge. `quadric`: the limit's, which is known of larger cells, and goes
-/// with the cut where this wants to go so far that it would leave steps along its creases.
+/// In cubes of the set's edge. `quadric`: the limit's, which is known of larger cells; as it moved.
 Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, LayeredQuadric& quadric,
               Room& room, const IsEnough& isEnough) {
   CavityResult rough;
@@ -361,39 +360,26 @@ Made cavityOf(const CavityTask& task, const OpenedSet& deliverable, LayeredQuadr
   use.loss = [&](const Contour& contour) {
     return gapOf(task, roughlyPolished(task, quadric, deliverable.edge, contour).body);
   };
-  constexpr double kStep = 0.25; // edges
-  constexpr int kMoves = 3;
-  int moves = 0;
-  bool hasMoved = false;
+  MovingQuadric moving(quadric);
   use.isWorthIt = [&](const Contour& contour) {
-    if (!isEnough && moves >= kMoves) return true;
+    if (!moving.isAsMeant(contour)) return false;
+    if (!isEnough && moving.isAtRest()) return true;
     Rough polished = roughlyPolished(task, quadric, deliverable.edge, contour);
     const bool isWorth =
         !isEnough || polished.body.violation > kFeasibility ||
         isEnough(gapOf(task, polished.body), surfaceArea(polished.inner, contour.mesh.faces),
                  contour.unresolved);
+    const bool moves = isWorth && moving.follow(contour, polished.vertices, deliverable.edge);
     if (!isWorth) rough = resultOf(std::move(polished.inner), contour.mesh.faces, {});
-    if (!isWorth || moves >= kMoves ||
-        stepOf(contour, polished.vertices) <= kStep * deliverable.edge)
-      return isWorth;
-    if (auto moved = quadricThrough(quadric, contour, polished.vertices)) {
-      quadric = *std::move(moved);
-      hasMoved = true;
-    }
-    return !hasMoved;
+    return isWorth && !moves;
   };
   std::vector<Vec3> crossing;
   const auto contourOf = [&](const OpenedSet& set) {
-    for (;; ++moves) {
-      hasMoved = false;
+    for (;;) {
+      moving.begin();
       std::optional<CavityContour> found = cavityContour(set, quadric, use, crossing);
-      const bool isNone = !found || found->contour.mesh.faces.rows() == 0;
-      if (isNone && moves > 0 && moves <= kMoves) {
-        quadric = task.bound->worth; // of which there is one
-        moves = kMoves;
-      } else if (!hasMoved) {
-        return found;
-      }
+      if (!found || found->contour.mesh.faces.rows() == 0) moving.takeBack();
+      if (!moving.hasMoved()) return found;
     }
   };
   const double roomy = wallBeforeRounding(task);
@@ -498,6 +484,28 @@ double edgeThatResolves(double edge, double ball) {
   return std::clamp(kResolves * ball, edge / 8.0, edge / 2.0);
 }
 
+/// Whether the quadric that was found in large cells does not keep the constraints of triangles as
+/// it should, for much depends on what its border cuts: smaller ones find a better one.
+bool asksForSmallerCells(const CavityTask& task, const CavityResult& result) {
+  const bool isOfMoments = task.goal.usesInertia() && task.bound->worth.quadrics.size() == 1;
+  const bool isKept = hollowBody(task, result).violation <= kFeasibility;
+  return isOfMoments && !isKept && !task.goal.insteadOfConstraints();
+}
+
+/// The quadric in cells hardly larger than the cubes.
+LayeredQuadric quadricInSmallerCells(const CavityTask& task, const OpenedSet& deliverable) {
+  constexpr double kLarger = 1.5;
+  const Vec3 extent = task.surface.upper() - task.surface.lower();
+  const double count = extent.prod() / std::pow(kLarger * deliverable.edge, 3);
+  const auto most = static_cast<double>(std::numeric_limits<int>::max());
+  const RegionParts parts =
+      admissibleParts(task.surface, task.wall, static_cast<int>(std::min(count, most)));
+  const AdmissibleCells cells = cellsWithin(deliverable, parts);
+  return cells.rows() == 0 ? task.bound->worth
+                           : quadricWithin(cells, *task.bound, task.goal, task.weights,
+                                           task.model.solidMoments, task.model.fillings);
+}
+
 /// In cubes as fine as it takes to lose little.
 CavityResult inFineCubes(const CavityTask& task, OpenedSet deliverable, Room& room) {
   const double more = leeway(task.surface);
@@ -524,17 +532,28 @@ CavityResult inFineCubes(const CavityTask& task, OpenedSet deliverable, Room& ro
   };
   Made best = cavityOf(task, deliverable, quadric, room, isRoughlyEnough(0));
   double edgeOfBest = deliverable.edge;
+  LayeredQuadric quadricOfBest = quadric;
+  bool isOfLargeCells = true;
   for (std::size_t i = 0; i < enough.size(); ++i) {
     const double gap = gapOf(task, best.result);
     const double area = surfaceArea(best.result.inner, best.result.cavity.faces);
     if (best.result.status == CavityStatus::NoRoom) break;
     const bool isFrayed = areTooLarge(best.unresolved);
-    if (isEnough(gap, area, enough[i]) && !isFrayed) break;
+    const bool isOfCells =
+        isOfLargeCells && gap > enough[i] && asksForSmallerCells(task, best.result);
+    if (isEnough(gap, area, enough[i]) && !isFrayed && !isOfCells) break;
     const bool areMany = edgeOfCubes(area, kManyCubes) > edgeFor(gap, kWanted);
     const bool isNone = best.result.cavity.faces.rows() == 0;
-    deliverable.edge = isNone     ? edgeThatResolves(deliverable.edge, deliverable.ball)
-                       : isFrayed ? std::max(0.5 * deliverable.edge, kResolves * deliverable.ball)
-                                  : edgeFor(gap, areMany ? kWantedOfMany : kWanted);
+    if (isNone) {
+      deliverable.edge = edgeThatResolves(deliverable.edge, deliverable.ball);
+    } else if (isFrayed) {
+      deliverable.edge = std::max(0.5 * deliverable.edge, kResolves * deliverable.ball);
+    } else if (isOfCells) {
+      quadric = quadricInSmallerCells(task, deliverable);
+      isOfLargeCells = false;
+    } else {
+      deliverable.edge = edgeFor(gap, areMany ? kWantedOfMany : kWanted);
+    }
     if (deliverable.edge < kLeastEdge) break;
     const bool isLast = i + 1 == enough.size();
     Made finer =
@@ -544,14 +563,19 @@ CavityResult inFineCubes(const CavityTask& task, OpenedSet deliverable, Room& ro
     const bool isBetter = servesBetter(task, finer.result, best.result) ||
                           (isFrayed && gapOf(task, finer.result) <= gap + kLittleMore);
     best.result.effort = finer.result.effort;
-    if (!isBetter) break;
+    if (!isBetter && !isOfCells) break;
+    if (!isBetter) {
+      quadric = quadricOfBest;
+      continue;
+    }
     best = std::move(finer);
     edgeOfBest = deliverable.edge;
+    quadricOfBest = quadric;
   }
   deliverable.edge = std::max(deliverable.edge, kLeastEdge);
   if (best.isFinished) return std::move(best.result);
   deliverable.edge = edgeOfBest;
-  Made finished = cavityOf(task, deliverable, quadric, room, {});
+  Made finished = cavityOf(task, deliverable, quadricOfBest, room, {});
   finished.result.effort += best.result.effort;
   return std::move(finished.result);
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace massprops {
@@ -36,6 +37,21 @@ Moments quadricThrough(const Moments& quadric, const Points& onCut, const Points
   return quadric + Moments(rows.completeOrthogonalDecomposition().solve(wanted));
 }
 
+/// How far most vertices of the cut went at most. What is next to them stayed.
+double stepOf(const Contour& contour, const Points& vertices) {
+  constexpr double kMost = 0.95;
+  std::vector<double> steps;
+  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
+    if (contour.on[static_cast<std::size_t>(v)] == On::Cut)
+      steps.push_back((vertices.row(v) - contour.mesh.vertices.row(v)).norm());
+  }
+  if (steps.empty()) return 0.0;
+  const auto most =
+      steps.begin() + static_cast<std::ptrdiff_t>(kMost * static_cast<double>(steps.size() - 1));
+  std::nth_element(steps.begin(), most, steps.end());
+  return *most;
+}
+
 } // namespace
 
 std::optional<LayeredQuadric> quadricThrough(const LayeredQuadric& quadric, const Contour& contour,
@@ -62,6 +78,36 @@ std::optional<LayeredQuadric> quadricThrough(const LayeredQuadric& quadric, cons
   }
   if (left > kNear * kNear * moved) return {};
   return result;
+}
+
+bool MovingQuadric::isAsMeant(const Contour& contour) {
+  constexpr double kAbout = 0.05; // of the volume
+  if (!last_) return true;
+  const double volume = moments(contour.mesh.vertices, contour.mesh.faces)[0];
+  const bool isIt = std::abs(volume - last_->volume) <= kAbout * last_->volume;
+  if (!isIt) takeBack();
+  last_.reset();
+  return isIt;
+}
+
+bool MovingQuadric::follow(const Contour& contour, const Points& vertices, double edge) {
+  constexpr double kFar = 0.25; // edges
+  if (isAtRest() || stepOf(contour, vertices) <= kFar * edge) return false;
+  std::optional<LayeredQuadric> moved = quadricThrough(quadric_, contour, vertices);
+  if (!moved) return false;
+  const double volume = moments(vertices, contour.mesh.faces)[0];
+  last_ = Move{std::exchange(quadric_, *std::move(moved)), volume};
+  ++moves_;
+  hasMoved_ = true;
+  return true;
+}
+
+void MovingQuadric::takeBack() {
+  if (!last_) return;
+  quadric_ = std::move(last_->before);
+  last_.reset();
+  moves_ = kMoves;
+  hasMoved_ = true;
 }
 
 } // namespace massprops

@@ -1,5 +1,6 @@
 #include "core/best/polish.h"
 
+#include "core/base/tolerances.h"
 #include "core/contour/region.h"
 #include "core/contour/shape_guard.h"
 #include "core/goals/objective.h"
@@ -7,6 +8,7 @@
 #include "core/reduced/displacement.h"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -77,6 +79,33 @@ Polished polish(const CavityTask& task, const LayeredQuadric& quadric, Moving mo
   const Displaced done = displace(displacement, targets);
   moveSoundly(targets, contour.mesh.faces, vertices);
   return {done.evaluations, done.violation, done.isFarthest};
+}
+
+bool withdrawFromWalls(const CavityTask& task, double edge, const Contour& contour,
+                       Points& vertices) {
+  constexpr std::array<double, 4> kWays{0.001, 0.004, 0.016, 0.064}; // edges
+  constexpr double kChange = 0.1; // of how far they all go, root mean square
+  const Region region{task.surface, task.wall};
+  InsetProbe probe(region);
+  Points inwards = Points::Zero(vertices.rows(), 3);
+  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
+    if (contour.on[static_cast<std::size_t>(v)] == On::Inset)
+      inwards.row(v) = probe.at(vertices.row(v).transpose(), task.wall).slope.transpose();
+  }
+  const Moments outer = task.model.solidMoments + task.model.attached;
+  for (const double edges : kWays) {
+    const double way = edges * edge;
+    const DisplacementTask displacement{
+        task.goal,          task.weights, task.model.fillings, outer, task.model.solidMoments[0],
+        contour.mesh.faces, inwards,      kChange * way};
+    Points moved = vertices + way * inwards;
+    const Displaced done = displace(displacement, moved);
+    const double least = (moved - vertices).cwiseProduct(inwards).rowwise().sum().minCoeff();
+    if (done.violation > kFeasibility || least < 0.0) continue;
+    vertices = std::move(moved);
+    return true;
+  }
+  return false;
 }
 
 } // namespace massprops

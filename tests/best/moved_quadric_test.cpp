@@ -76,5 +76,42 @@ TEST(QuadricThrough, StaysInLayersWithoutACut) {
   EXPECT_GT((moved->quadrics[0] - plane).norm(), 0.01);
 }
 
+/// A step of the cap's cut, upwards.
+Points raised(const Cap& cap, double step) {
+  Points vertices = cap.contour.mesh.vertices;
+  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
+    if (cap.contour.on[static_cast<std::size_t>(v)] == On::Cut) vertices(v, 2) += step;
+  }
+  return vertices;
+}
+
+TEST(MovingQuadric, GoesWithItsCutAndStaysWhereThatIsNear) {
+  Cap cap = capAbove(0.2);
+  MovingQuadric moving(cap.plane);
+  moving.begin();
+  EXPECT_FALSE(moving.follow(cap.contour, raised(cap, 0.01), 0.1));
+  EXPECT_FALSE(moving.hasMoved());
+  EXPECT_TRUE(moving.follow(cap.contour, raised(cap, 0.1), 0.1));
+  EXPECT_TRUE(moving.hasMoved());
+  EXPECT_NEAR(cap.plane.valueAt(Vec3(0.1, 0.2, 0.3)), 0.0, 1e-2);
+  moving.begin();
+  EXPECT_TRUE(moving.isAsMeant(capAbove(0.3).contour));
+  EXPECT_FALSE(moving.hasMoved());
+  EXPECT_FALSE(moving.isAtRest());
+}
+
+TEST(MovingQuadric, GoesBackFromWhereItWasNotMeantToGo) {
+  Cap cap = capAbove(0.2);
+  const Moments before = cap.plane.quadrics.front();
+  MovingQuadric moving(cap.plane);
+  EXPECT_TRUE(moving.follow(cap.contour, raised(cap, 0.1), 0.1));
+  EXPECT_NE(cap.plane.quadrics.front(), before);
+  moving.begin();
+  EXPECT_FALSE(moving.isAsMeant(capAbove(-0.5).contour));
+  EXPECT_TRUE(moving.hasMoved());
+  EXPECT_TRUE(moving.isAtRest());
+  EXPECT_EQ(cap.plane.quadrics.front(), before);
+}
+
 } // namespace
 } // namespace massprops::testing

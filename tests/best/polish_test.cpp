@@ -131,5 +131,41 @@ TEST(Polish, FindsAWayWhereVeryManyConditionsAreAllButActive) {
   EXPECT_LE(std::get<double>(report.at("gap_to_limit")), 0.01);
 }
 
+TEST(Polish, KeepsConstraintsWhereNothingIsCutOff) {
+  const TriangleMesh outer = sphere(24);
+  const TriangleTree tree(outer.vertices, outer.faces);
+  const double wall = 0.08;
+  const auto found = cavityContour(
+      openedSet(tree, wall, edgeOfCubes(surfaceArea(outer.vertices, outer.faces), 15000)), {});
+  ASSERT_TRUE(found);
+  const Faces& faces = found->contour.mesh.faces;
+  const Points& before = found->contour.mesh.vertices;
+  const Moments solid = moments(outer.vertices, outer.faces);
+  const auto bodyOf = [&](const Points& vertices) {
+    return Moments(solid - moments(vertices, faces));
+  };
+  // A little to the side, and as much heavier as that takes.
+  Moments wanted = bodyOf(before);
+  wanted[0] += 1e-3 * found->edge * surfaceArea(before, faces);
+  wanted[1] += 5e-6;
+  const WantedGoal goal(wanted);
+  CavityTask task{tree, goal, {}};
+  task.model.fillings = {{}};
+  task.model.solidMoments = solid;
+  task.wall = wall;
+  Points vertices = before;
+  ASSERT_TRUE(withdrawFromWalls(task, found->edge, found->contour, vertices));
+  EXPECT_LT((bodyOf(vertices) - wanted).head<4>().cwiseAbs().maxCoeff(), 1e-6);
+  EXPECT_GE(ClearanceQuery(tree).measure(vertices, faces, 0.2).least, wall);
+  EXPECT_LT((vertices - before).rowwise().norm().maxCoeff(), 0.1 * found->edge);
+  // So much is not to be had within a tenth of an edge.
+  Moments far = wanted;
+  far[1] += 0.1;
+  const WantedGoal farGoal(far);
+  CavityTask farTask{tree, farGoal, task.model};
+  farTask.wall = wall;
+  EXPECT_FALSE(withdrawFromWalls(farTask, found->edge, found->contour, vertices));
+}
+
 } // namespace
 } // namespace massprops::testing
