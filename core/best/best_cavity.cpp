@@ -534,16 +534,16 @@ CavityResult inFineCubes(const CavityTask& task, OpenedSet deliverable, Room& ro
   double edgeOfBest = deliverable.edge;
   LayeredQuadric quadricOfBest = quadric;
   bool isOfLargeCells = true;
-  for (std::size_t i = 0; i < enough.size(); ++i) {
+  for (std::size_t i = 0; i < enough.size();) {
     const double gap = gapOf(task, best.result);
     const double area = surfaceArea(best.result.inner, best.result.cavity.faces);
     if (best.result.status == CavityStatus::NoRoom) break;
     const bool isFrayed = areTooLarge(best.unresolved);
-    const bool isOfCells =
-        isOfLargeCells && gap > enough[i] && asksForSmallerCells(task, best.result);
+    const bool isNone = best.result.cavity.faces.rows() == 0;
+    const bool isOfCells = isOfLargeCells && !isNone && !isFrayed && gap > enough[i] &&
+                           asksForSmallerCells(task, best.result);
     if (isEnough(gap, area, enough[i]) && !isFrayed && !isOfCells) break;
     const bool areMany = edgeOfCubes(area, kManyCubes) > edgeFor(gap, kWanted);
-    const bool isNone = best.result.cavity.faces.rows() == 0;
     if (isNone) {
       deliverable.edge = edgeThatResolves(deliverable.edge, deliverable.ball);
     } else if (isFrayed) {
@@ -555,9 +555,10 @@ CavityResult inFineCubes(const CavityTask& task, OpenedSet deliverable, Room& ro
       deliverable.edge = edgeFor(gap, areMany ? kWantedOfMany : kWanted);
     }
     if (deliverable.edge < kLeastEdge) break;
-    const bool isLast = i + 1 == enough.size();
+    if (!isOfCells) ++i;
+    const bool isLast = i == enough.size();
     Made finer =
-        cavityOf(task, deliverable, quadric, room, isLast ? IsEnough() : isRoughlyEnough(i + 1));
+        cavityOf(task, deliverable, quadric, room, isLast ? IsEnough() : isRoughlyEnough(i));
     finer.result.effort += best.result.effort;
     constexpr double kLittleMore = 0.002; // of what is possible, where ends get smooth
     const bool isBetter = servesBetter(task, finer.result, best.result) ||
