@@ -138,12 +138,10 @@ public:
 
   Candidate adjusted() { return adjusted(found_.mesh.vertices); }
 
-  /// Empty: the constraints do not hold nearly.
-  std::optional<Candidate> withdrawn() const {
-    Points vertices = found_.mesh.vertices;
+  /// Of vertices that do not keep the constraints, inspected; empty: they are too far from it.
+  std::optional<CavityResult> withdrawn(Points vertices) {
     if (!withdrawFromWalls(task_, edge_, found_, vertices)) return std::nullopt;
-    const Body body = bodyAt(vertices);
-    return Candidate{std::move(vertices), body};
+    return passed(std::move(vertices));
   }
 
   /// Inspected. Vertices whose faces do not pass, or have become slivers, go back to where they
@@ -250,13 +248,6 @@ CavityResult polished(const CavityTask& task, const LayeredQuadric& quadric, dou
                                     return !isWorthMoving(task, unmoved, candidate.body);
                                   }),
                    candidates.end());
-  const bool isUnkept =
-      std::all_of(candidates.begin(), candidates.end(), [](const Candidate& candidate) {
-        return candidate.body.violation > kFeasibility;
-      });
-  if (isUnkept && task.bound->isReachable()) {
-    if (auto withdrawn = polishing.withdrawn()) candidates.push_back(*std::move(withdrawn));
-  }
   std::stable_sort(
       candidates.begin(), candidates.end(),
       [&](const Candidate& a, const Candidate& b) { return servesBetter(task, a.body, b.body); });
@@ -280,6 +271,12 @@ CavityResult polished(const CavityTask& task, const LayeredQuadric& quadric, dou
     if (!isBetter) continue;
     best = std::move(result);
     bestBody = body;
+  }
+  if (bestBody.violation > kFeasibility && task.bound->isReachable()) {
+    std::optional<CavityResult> withdrawn = polishing.withdrawn(best->inner);
+    if (withdrawn && withdrawn->inspection.isClean() &&
+        servesBetter(task, hollowBody(task, *withdrawn), bestBody))
+      best = std::move(withdrawn);
   }
   best->effort.evaluations = polishing.evaluations();
   best->effort.secondsInspection = polishing.secondsInspection();

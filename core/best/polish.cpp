@@ -83,7 +83,7 @@ Polished polish(const CavityTask& task, const LayeredQuadric& quadric, Moving mo
 
 bool withdrawFromWalls(const CavityTask& task, double edge, const Contour& contour,
                        Points& vertices) {
-  constexpr std::array<double, 4> kWays{0.001, 0.004, 0.016, 0.064}; // edges
+  constexpr std::array<double, 6> kWays{0.001, 0.004, 0.016, 0.064, 0.256, 0.5}; // edges
   constexpr double kChange = 0.1; // of how far they all go, root mean square
   const Region region{task.surface, task.wall};
   InsetProbe probe(region);

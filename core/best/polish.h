@@ -27,7 +27,7 @@ Polished polish(const CavityTask& task, const LayeredQuadric& quadric, Moving mo
 
 /// Where there is no cut, or too little of it, to keep the constraints with: moves the vertices
 /// behind the walls inwards, which keeps the walls, by no more than it takes. False, with
-/// `vertices` as they were, if a tenth of an edge is too little. \pre the constraints nearly hold
+/// `vertices` as they were, if half an edge is too little. \pre the constraints nearly hold
 bool withdrawFromWalls(const CavityTask& task, double edge, const Contour& contour,
                        Points& vertices);
 
