@@ -138,17 +138,35 @@ public:
 
   Candidate adjusted() { return adjusted(found_.mesh.vertices); }
 
-  /// Of vertices that do not keep the constraints, inspected; empty: they are too far from it.
-  std::optional<CavityResult> withdrawn(Points vertices) {
-    if (!withdrawFromWalls(task_, edge_, found_, vertices)) return std::nullopt;
-    return passed(std::move(vertices));
+  /// Inspected. Vertices whose faces do not pass go back to where the contour has them and stay
+  /// there, while the others are adjusted anew.
+  CavityResult passed(Points vertices) {
+    const Points& home = found_.mesh.vertices;
+    if (vertices.rows() == 0) vertices = home;
+    return passed(std::move(vertices), home, [&](const std::vector<char>& held, Points& others) {
+      adjust(held, others);
+      return true;
+    });
   }
 
-  /// Inspected. Vertices whose faces do not pass, or have become slivers, go back to where they
-  /// were and stay there with those around them, while the others are adjusted anew.
-  CavityResult passed(Points vertices) {
+  /// Of vertices that pass but do not keep the constraints, inspected; those whose faces do not
+  /// pass any more stay where they are. Empty: they are too far from the constraints.
+  std::optional<CavityResult> withdrawn(const Points& home) {
+    const auto withdraw = [&](const std::vector<char>& held, Points& vertices) {
+      vertices = home;
+      return withdrawFromWalls(task_, edge_, held, found_, vertices);
+    };
+    Points vertices;
+    if (!withdraw({}, vertices)) return std::nullopt;
+    return passed(std::move(vertices), home, withdraw);
+  }
+
+private:
+  /// Vertices whose faces do not pass, or have become slivers, go home, and `anew` is called with
+  /// flags of all that did, until it gives up or nothing is new.
+  template <class Anew>
+  CavityResult passed(Points vertices, const Points& home, const Anew& anew) {
     constexpr int kRounds = 5;
-    if (vertices.rows() == 0) vertices = found_.mesh.vertices;
     std::vector<char> held(static_cast<std::size_t>(vertices.rows()), 0);
     std::optional<CavityResult> clean; // but for slivers
     const auto isFeasible = [&](const CavityResult& result) {
@@ -157,17 +175,16 @@ public:
     for (int round = 0;; ++round) {
       CavityResult result = inspectedAt(vertices);
       const bool isClean = result.inspection.isClean();
-      if (round == kRounds || !holdFaulty(result.inspection, held, vertices)) {
+      if (round == kRounds || !holdFaulty(result.inspection, home, held, vertices)) {
         const bool isLess = !isClean || (clean && isFeasible(*clean) && !isFeasible(result));
         if (clean && isLess) return *std::move(clean);
         return result;
       }
       if (isClean) clean = std::move(result);
-      adjust(held, vertices);
+      if (!anew(held, vertices)) return clean ? *std::move(clean) : std::move(result);
     }
   }
 
-private:
   Body bodyAt(const Points& vertices) const {
     return hollowBody(task_, delivered(task_, vertices), found_.mesh.faces);
   }
@@ -201,7 +218,8 @@ private:
   }
 
   /// Whether there was one that was not held yet.
-  bool holdFaulty(const Inspection& inspection, std::vector<char>& held, Points& vertices) const {
+  bool holdFaulty(const Inspection& inspection, const Points& home, std::vector<char>& held,
+                  Points& vertices) const {
     const Faces& faces = found_.mesh.faces;
     std::vector<char> faulty(held.size(), 0);
     for (const int v : inspection.crossing) faulty[static_cast<std::size_t>(v)] = 1;
@@ -218,7 +236,7 @@ private:
       for (const int v : corners) {
         isNew = isNew || held[static_cast<std::size_t>(v)] == 0;
         held[static_cast<std::size_t>(v)] = 1;
-        vertices.row(v) = found_.mesh.vertices.row(v);
+        vertices.row(v) = home.row(v);
       }
     }
     return isNew;

@@ -8,7 +8,6 @@
 #include "core/reduced/displacement.h"
 
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -81,29 +80,36 @@ Polished polish(const CavityTask& task, const LayeredQuadric& quadric, Moving mo
   return {done.evaluations, done.violation, done.isFarthest};
 }
 
-bool withdrawFromWalls(const CavityTask& task, double edge, const Contour& contour,
-                       Points& vertices) {
-  constexpr std::array<double, 6> kWays{0.001, 0.004, 0.016, 0.064, 0.256, 0.5}; // edges
-  constexpr double kChange = 0.1; // of how far they all go, root mean square
+bool withdrawFromWalls(const CavityTask& task, double edge, const std::vector<char>& held,
+                       const Contour& contour, Points& vertices) {
+  constexpr double kMost = 0.5;    // edges, root mean square
+  constexpr double kLittle = 0.05; // of the farthest
+  constexpr int kRounds = 10;
   const Region region{task.surface, task.wall};
   InsetProbe probe(region);
   Points inwards = Points::Zero(vertices.rows(), 3);
   for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
-    if (contour.on[static_cast<std::size_t>(v)] == On::Inset)
+    const auto i = static_cast<std::size_t>(v);
+    if (contour.on[i] == On::Inset && (held.empty() || held[i] == 0))
       inwards.row(v) = probe.at(vertices.row(v).transpose(), task.wall).slope.transpose();
   }
   const Moments outer = task.model.solidMoments + task.model.attached;
-  for (const double edges : kWays) {
-    const double way = edges * edge;
-    const DisplacementTask displacement{
-        task.goal,          task.weights, task.model.fillings, outer, task.model.solidMoments[0],
-        contour.mesh.faces, inwards,      kChange * way};
-    Points moved = vertices + way * inwards;
-    const Displaced done = displace(displacement, moved);
-    const double least = (moved - vertices).cwiseProduct(inwards).rowwise().sum().minCoeff();
-    if (done.violation > kFeasibility || least < 0.0) continue;
-    vertices = std::move(moved);
-    return true;
+  DisplacementTask displacement{
+      task.goal,          task.weights, task.model.fillings, outer, task.model.solidMoments[0],
+      contour.mesh.faces, inwards,      kMost * edge};
+  displacement.movesLeast = true;
+  for (int round = 0; round < kRounds; ++round) {
+    Points moved = vertices;
+    if (displace(displacement, moved).violation > kFeasibility) return false;
+    const Vector ways = (moved - vertices).cwiseProduct(inwards).rowwise().sum();
+    if (ways.minCoeff() >= 0.0) {
+      vertices = std::move(moved);
+      return true;
+    }
+    // What would go outwards, or hardly inwards, stays.
+    for (Eigen::Index v = 0; v < moved.rows(); ++v) {
+      if (ways[v] < kLittle * ways.maxCoeff()) inwards.row(v).setZero();
+    }
   }
   return false;
 }

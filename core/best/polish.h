@@ -25,10 +25,11 @@ struct Polished {
 Polished polish(const CavityTask& task, const LayeredQuadric& quadric, Moving moving, double edge,
                 const std::vector<char>& held, const Contour& contour, Points& vertices);
 
-/// Where there is no cut, or too little of it, to keep the constraints with: moves the vertices
-/// behind the walls inwards, which keeps the walls, by no more than it takes. False, with
-/// `vertices` as they were, if half an edge is too little. \pre the constraints nearly hold
-bool withdrawFromWalls(const CavityTask& task, double edge, const Contour& contour,
-                       Points& vertices);
+/// Where there is no cut, or too little of it, to keep the constraints with: moves vertices behind
+/// the walls inwards, which keeps the walls, by no more than it takes. `held` as above. False, with
+/// `vertices` as they were, if half an edge, root mean square, is too little. \pre the constraints
+/// nearly hold
+bool withdrawFromWalls(const CavityTask& task, double edge, const std::vector<char>& held,
+                       const Contour& contour, Points& vertices);
 
 } // namespace massprops

@@ -115,9 +115,15 @@ Displaced displace(const DisplacementTask& task, Points& vertices) {
   }
   const auto evaluateAt = [&](const Vector& q) {
     const Evaluated body = bodyAt(q.head(count));
-    return levels ? levels->at(body.states, body.volumeShare, body.volumeShareGradient, q[count])
-                  : evaluateBody(task.goal, task.weights, body.states, body.volumeShare,
-                                 body.volumeShareGradient);
+    if (levels)
+      return levels->at(body.states, body.volumeShare, body.volumeShareGradient, q[count]);
+    Evaluation evaluation = evaluateBody(task.goal, task.weights, body.states, body.volumeShare,
+                                         body.volumeShareGradient);
+    if (task.movesLeast) {
+      evaluation.objective = 0.5 * q.squaredNorm();
+      evaluation.objectiveGradient = q;
+    }
+    return evaluation;
   };
   MinimizeOptions options;
   options.feasibility = 0.1 * kFeasibility; // rounding needs the rest

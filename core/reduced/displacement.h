@@ -21,6 +21,8 @@ struct DisplacementTask {
   /// Whether the goal's level is raised itself, kinks and all, where one condition is all that it
   /// asks for: its smooth objective is nearly that only.
   bool raisesLevel = false;
+  /// Whether vertices move by no more than the constraints ask for, whatever the objective becomes.
+  bool movesLeast = false;
 };
 
 struct Displaced {

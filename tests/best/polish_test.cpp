@@ -154,7 +154,7 @@ TEST(Polish, KeepsConstraintsWhereNothingIsCutOff) {
   task.model.solidMoments = solid;
   task.wall = wall;
   Points vertices = before;
-  ASSERT_TRUE(withdrawFromWalls(task, found->edge, found->contour, vertices));
+  ASSERT_TRUE(withdrawFromWalls(task, found->edge, {}, found->contour, vertices));
   EXPECT_LT((bodyOf(vertices) - wanted).head<4>().cwiseAbs().maxCoeff(), 1e-6);
   EXPECT_GE(ClearanceQuery(tree).measure(vertices, faces, 0.2).least, wall);
   EXPECT_LT((vertices - before).rowwise().norm().maxCoeff(), 0.1 * found->edge);
@@ -164,7 +164,7 @@ TEST(Polish, KeepsConstraintsWhereNothingIsCutOff) {
   const WantedGoal farGoal(far);
   CavityTask farTask{tree, farGoal, task.model};
   farTask.wall = wall;
-  EXPECT_FALSE(withdrawFromWalls(farTask, found->edge, found->contour, vertices));
+  EXPECT_FALSE(withdrawFromWalls(farTask, found->edge, {}, found->contour, vertices));
 }
 
 } // namespace
