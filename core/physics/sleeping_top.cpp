@@ -1,7 +1,10 @@
 #include "core/physics/sleeping_top.h"
 
+#include "core/base/angles.h"
+
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <vector>
 
 namespace massprops {
@@ -16,8 +19,18 @@ struct Quadratic {
 /// A B s⁴ + P s² + Q = 0 for disturbances exp(s t), in w, the square of the speed: s² is real and
 /// negative twice exactly if P, Q and D = P² − 4 A B Q are positive.
 struct Conditions {
+  double ab;
   Quadratic p, q, d;
   bool hold(double w) const { return p(w) >= 0.0 && q(w) >= 0.0 && d(w) >= 0.0; }
+
+  /// Of the disturbance that grows fastest, its real part of s.
+  double growth(double w) const {
+    const std::complex<double> root = std::sqrt(std::complex<double>(d(w)));
+    const auto rate = [&](double sign) {
+      return std::sqrt((-p(w) + sign * root) / (2.0 * ab)).real();
+    };
+    return std::max(rate(1.0), rate(-1.0));
+  }
 };
 
 Conditions conditionsOf(const Top& top) {
@@ -27,7 +40,8 @@ Conditions conditionsOf(const Top& top) {
   const double k = top.weightMoment;
   const double product = (C - A) * (C - B);
   const double p = product + A * B;
-  return {{0.0, p, -k * (A + B)},
+  return {A * B,
+          {0.0, p, -k * (A + B)},
           {product, -k * (2.0 * C - A - B), k * k},
           {std::pow(C * (A + B - C), 2), 2.0 * k * (2.0 * A * B * (2.0 * C - A - B) - (A + B) * p),
            std::pow(k * (A - B), 2)}};
@@ -41,6 +55,15 @@ void addPositiveRoots(const Quadratic& f, std::vector<double>& roots) {
   for (const double root : {q / f.c2, f.c0 / q}) {
     if (std::isfinite(root) && root > 0.0) roots.push_back(root);
   }
+}
+
+/// Whether a top that friction slows down from w = `above` to `below` passes before a disturbance
+/// has doubled.
+bool passes(const Conditions& conditions, double below, double above) {
+  constexpr double kTurns = 1000.0; // that friction takes to slow it by e: more than by hand
+  const double w = 0.5 * (below + above);
+  const double turns = kTurns * 0.5 * std::log(above / below);
+  return turns * 2.0 * kPi * conditions.growth(w) / std::sqrt(w) < std::log(2.0);
 }
 
 } // namespace
@@ -60,7 +83,9 @@ std::optional<double> sleepingSpeed(const Top& top) {
   const double scale = std::abs(top.weightMoment) / (top.acrossA + top.acrossB);
   if (!conditions.hold(2.0 * borders.back() + scale)) return std::nullopt;
   std::size_t i = borders.size() - 1;
-  while (i > 0 && conditions.hold(0.5 * (borders[i - 1] + borders[i]))) --i;
+  while (i > 0 && (conditions.hold(0.5 * (borders[i - 1] + borders[i])) ||
+                   passes(conditions, borders[i - 1], borders[i])))
+    --i;
   return std::sqrt(borders[i]);
 }
 

@@ -60,6 +60,33 @@ TEST(SleepingSpeed, MayHaveAnUnstableBandAboveAStableWindow) {
   EXPECT_FALSE(sleepsAt(top, 0.5));
 }
 
+TEST(SleepingSpeed, LeavesOutBandsThatAHandSpunTopSlowsThrough) {
+  // Disturbances followed through the band by the fastest growth there.
+  const auto factorThrough = [](const Top& top, double turns) {
+    const double from = std::sqrt(top.weightMoment / (top.axial - top.acrossB));
+    const double to = std::sqrt(top.weightMoment / (top.axial - top.acrossA));
+    constexpr int kSteps = 2000;
+    const double ratio = std::pow(to / from, 1.0 / kSteps);
+    double sum = 0.0;
+    for (int i = 0; i < kSteps; ++i) {
+      const double w = from * std::pow(ratio, i + 0.5);
+      sum += turns * std::log(ratio) * 2.0 * std::acos(-1.0) * growthAt(top, w) / w;
+    }
+    return std::exp(sum);
+  };
+  const auto uneven = [](double share) { return Top{1.0 + share, 1.0, 1.2, 1.0}; };
+  const double round = 2.0 / 1.2;
+  const double band = std::sqrt(1.0 / 0.2);
+  for (const double share : {1e-10, 1e-5, 1e-3, 0.005}) {
+    EXPECT_NEAR(*sleepingSpeed(uneven(share)), round, share) << share;
+    EXPECT_LT(factorThrough(uneven(share), 1000.0), 2.0) << share;
+  }
+  for (const double share : {0.02, 0.05}) {
+    EXPECT_GT(*sleepingSpeed(uneven(share)), band) << share;
+    EXPECT_GT(factorThrough(uneven(share), 1000.0), 2.0) << share;
+  }
+}
+
 TEST(SleepingSpeed, IsNoneForTheMiddleMoment) {
   const Top top{1.2, 0.6, 1.0, 1.0};
   EXPECT_FALSE(sleepingSpeed(top));

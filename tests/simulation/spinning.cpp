@@ -9,7 +9,8 @@
 namespace simulation {
 namespace {
 
-constexpr double kRadians = 3.14159265358979323846 / 180.0;
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kRadians = kPi / 180.0;
 constexpr double kMostSteps = 1e6;
 constexpr double kFirstTilt = 0.1; // degrees: small, so that the linear equations hold
 
@@ -58,14 +59,17 @@ double growthRate(const Top& top, double speed) {
 }
 
 double sleepingSpeed(const Top& top) {
+  // For friction to slow it by e; it has to double what grows on its way through a band.
+  constexpr double kTurns = 1000.0;
   const std::vector<double> w = Characteristic(top).candidates();
   if (w.empty() || growthRate(top, std::sqrt(2.0 * w.back())) > 0.0) {
     return std::numeric_limits<double>::infinity();
   }
   for (std::size_t i = w.size(); i-- > 0;) {
     const double below = i > 0 ? w[i - 1] : 0.0;
-    const bool isInterval = w[i] - below > 1e-9 * w[i];
-    if (isInterval && growthRate(top, std::sqrt(0.5 * (w[i] + below))) > 0.0) {
+    const double middle = std::sqrt(0.5 * (w[i] + below));
+    const double turns = kTurns * 0.5 * std::log(w[i] / below);
+    if (growthRate(top, middle) * turns * 2.0 * kPi > std::log(2.0) * middle) {
       return std::sqrt(w[i]);
     }
   }
