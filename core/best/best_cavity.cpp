@@ -507,11 +507,10 @@ bool asksForSmallerCells(const CavityTask& task, const CavityResult& result) {
   return isOfMoments && !isKept && !task.goal.insteadOfConstraints();
 }
 
-/// The quadric in cells hardly larger than the cubes.
+/// The quadric in cells of the cubes' edge.
 LayeredQuadric quadricInSmallerCells(const CavityTask& task, const OpenedSet& deliverable) {
-  constexpr double kLarger = 1.5;
   const Vec3 extent = task.surface.upper() - task.surface.lower();
-  const double count = extent.prod() / std::pow(kLarger * deliverable.edge, 3);
+  const double count = extent.prod() / std::pow(deliverable.edge, 3);
   const auto most = static_cast<double>(std::numeric_limits<int>::max());
   const RegionParts parts =
       admissibleParts(task.surface, task.wall, static_cast<int>(std::min(count, most)));
