@@ -54,7 +54,8 @@ public:
 
   /// `cells`: in the model's bounding box.
   Moments moments(int cells) const {
-    RegionParts parts = admissibleParts(*outer_, perimeters_, cells, outer_->slightSlack());
+    RegionParts parts =
+        admissibleParts(*outer_, perimeters_, cells, outer_->slightSlack(), AtEdges::AsElsewhere);
     if (inner_.faces().rows() > 0) parts = partsOutside(inner_, perimeters_, parts);
     const AdmissibleCells deep = cellsOf(parts);
     return deep.rows() > 0 ? Moments(deep.colwise().sum().transpose()) : Moments(Moments::Zero());

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <deque>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -31,7 +32,7 @@ Moments partMoments(const RegionParts& region, const RegionPart& part, double ed
     if (cut.volume <= 0.0) return Moments(Moments::Zero());
     return cubeMoments(part.centre + edge * cut.centroid, edge, cut.volume * whole);
   };
-  Moments own = behind(part.inwards, part.depth - region.wall);
+  Moments own = behind(part.inwards.cast<double>(), part.depth - region.wall);
   if (part.opposite < 0) return own;
   // Two half-spaces that face each other cover the cube where they meet in it.
   const Sample& other = region.opposites[static_cast<std::size_t>(part.opposite)];
@@ -52,15 +53,16 @@ Vec3 stepTo(int corner) {
 /// Levels count upwards from the parts of border cells; 1 are the cells.
 class RegionSampler {
 public:
-  RegionSampler(const TriangleTree& surface, double wall, double edge, double slack)
-      : surface_(surface), wall_(wall), edge_(edge), slack_(slack) {}
+  RegionSampler(const TriangleTree& surface, double wall, double edge, double slack,
+                AtEdges atEdges)
+      : surface_(surface), wall_(wall), edge_(edge), slack_(slack), atEdges_(atEdges) {}
 
   void add(const Vec3& centre) { visit(centre, kTop, 0, kNone, {}); }
 
   static constexpr int kTop = 4;
   static double topEdge(double edge) { return edge * (1 << (kTop - 1)); }
 
-  std::vector<RegionPart> parts() && { return std::move(parts_); }
+  std::deque<RegionPart> parts() && { return std::move(parts_); }
 
 private:
   /// The surface does not come into it, so that all of it is on one side.
@@ -105,7 +107,7 @@ private:
     const TriangleTree::Hit nearest = surface_.clearance(centre, onSurface);
     if (!(nearest.squaredDistance < far * far)) {
       known_.push_back({centre, far, true});
-      add({centre, far, Vec3::UnitX(), level, cell}, nearest);
+      add({centre, far, Eigen::Vector3f::UnitX(), level, cell}, nearest);
       return;
     }
     const double distance = std::sqrt(nearest.squaredDistance);
@@ -119,8 +121,9 @@ private:
     }
     if (level == finest || (ball.isInside && ball.radius >= wall_ + half)) {
       const Vec3 away = (centre - nearest.point) / std::max(distance, 1e-300);
+      const Vec3 inwards = (ball.isInside ? 1.0 : -1.0) * away;
       const double depth = ball.isInside ? distance : -ball.radius;
-      add({centre, depth, (ball.isInside ? 1.0 : -1.0) * away, level, cell}, nearest);
+      add({centre, depth, inwards.cast<float>(), level, cell}, nearest);
       return;
     }
     if (level == 1) {
@@ -136,7 +139,7 @@ private:
       const int corner = i ^ farthest;
       visit(centre + size * stepTo(corner), level - 1, finest, cell, nearest);
     }
-    if (level == 1 && !hasFlatBorder()) divideLastCell();
+    if (level == 1 && atEdges_ == AtEdges::Finer && !hasFlatBorder()) divideLastCell();
     known_.resize(known);
   }
 
@@ -157,10 +160,10 @@ private:
     const auto first = parts_.end() - static_cast<std::ptrdiff_t>(nearest_.size());
     Vec3 sum = Vec3::Zero();
     for (auto part = first; part != parts_.end(); ++part)
-      if (mayHaveBorder(*part)) sum += part->inwards;
+      if (mayHaveBorder(*part)) sum += part->inwards.cast<double>();
     const Vec3 mean = sum.normalized();
     return std::all_of(first, parts_.end(), [&](const RegionPart& part) {
-      return !mayHaveBorder(part) || part.inwards.dot(mean) >= kSame;
+      return !mayHaveBorder(part) || part.inwards.cast<double>().dot(mean) >= kSame;
     });
   }
 
@@ -186,7 +189,8 @@ private:
   double wall_;
   double edge_;
   double slack_;
-  std::vector<RegionPart> parts_;
+  AtEdges atEdges_;
+  std::deque<RegionPart> parts_;
   std::vector<TriangleTree::Hit> nearest_; ///< to the parts of the last cell at the border
   std::vector<Ball> known_; ///< around the cubes that the present one is part of, and their parts
   int borderCells_ = 0;
@@ -200,7 +204,8 @@ double cellEdge(const Vec3& extent, int cells) {
 
 } // namespace
 
-RegionParts admissibleParts(const TriangleTree& surface, double wall, int cells, double slack) {
+RegionParts admissibleParts(const TriangleTree& surface, double wall, int cells, double slack,
+                            AtEdges atEdges) {
   const Vec3 low = surface.vertices().colwise().minCoeff();
   const Vec3 high = surface.vertices().colwise().maxCoeff();
   const Vec3 extent = high - low;
@@ -209,21 +214,18 @@ RegionParts admissibleParts(const TriangleTree& surface, double wall, int cells,
   const double step = RegionSampler::topEdge(edge);
   const Eigen::Array<Eigen::Index, 3, 1> counts =
       ((high - low) / step).array().ceil().max(1.0).cast<Eigen::Index>();
-  std::vector<std::vector<RegionPart>> chunks(static_cast<std::size_t>(counts.prod()));
+  std::vector<std::deque<RegionPart>> chunks(static_cast<std::size_t>(counts.prod()));
   forChunks(counts.prod(), 1, [&](const Chunk& chunk) {
     const Eigen::Index column = chunk.number / counts.z();
     const Eigen::Array<Eigen::Index, 3, 1> place(column / counts.y(), column % counts.y(),
                                                  chunk.number % counts.z());
-    RegionSampler sampler(surface, wall, edge, slack);
+    RegionSampler sampler(surface, wall, edge, slack, atEdges);
     sampler.add(low + step * (place.cast<double>() + 0.5).matrix());
     chunks[static_cast<std::size_t>(chunk.number)] = std::move(sampler).parts();
   });
   RegionParts all{edge, wall, {}};
-  std::size_t count = 0;
-  for (const std::vector<RegionPart>& chunk : chunks) count += chunk.size();
-  all.parts.reserve(count);
   int known = 0;
-  for (std::vector<RegionPart>& chunk : chunks) {
+  for (std::deque<RegionPart>& chunk : chunks) {
     int most = kNone;
     for (RegionPart& part : chunk) {
       most = std::max(most, part.cell);
@@ -231,7 +233,7 @@ RegionParts admissibleParts(const TriangleTree& surface, double wall, int cells,
       all.parts.push_back(part);
     }
     known += most + 1;
-    std::vector<RegionPart>().swap(chunk);
+    std::deque<RegionPart>().swap(chunk);
   }
   return all;
 }
@@ -239,7 +241,8 @@ RegionParts admissibleParts(const TriangleTree& surface, double wall, int cells,
 RegionParts resolvedParts(const TriangleTree& surface, double wall) {
   constexpr int kRounds = 3; // what coarse cells say of the width is not exact
   constexpr double kAcross = 3.0;
-  constexpr double kMost = 20000.0; // at the border
+  constexpr double kMost = 20000.0;       // at the border
+  constexpr double kMostParts = 300000.0; // a sixth of what the filter may take of memory
   constexpr double kNearEnough = 0.8;
   const Vec3 extent =
       (surface.vertices().colwise().maxCoeff() - surface.vertices().colwise().minCoeff())
@@ -249,7 +252,9 @@ RegionParts resolvedParts(const TriangleTree& surface, double wall) {
     const double area = borderArea(parts);
     if (area <= 0.0) break;
     const double width = 2.0 * cellsOf(parts).col(0).sum() / area;
-    const double edge = std::max(width / kAcross, std::sqrt(kCubesPerArea * area / kMost));
+    const double count = static_cast<double>(parts.parts.size());
+    const double edge = std::max({width / kAcross, std::sqrt(kCubesPerArea * area / kMost),
+                                  parts.edge * std::sqrt(count / kMostParts)});
     if (edge > kNearEnough * parts.edge) break;
     const double cells = extent.prod() / std::pow(edge, 3);
     parts = admissibleParts(surface, wall, static_cast<int>(std::min(cells, 1e9)));

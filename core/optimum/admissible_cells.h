@@ -4,6 +4,7 @@
 #include "core/query/grid_function.h"
 #include "core/query/triangle_tree.h"
 
+#include <deque>
 #include <vector>
 
 namespace massprops {
@@ -16,8 +17,8 @@ using AdmissibleCells = Eigen::Matrix<double, Eigen::Dynamic, 10, Eigen::RowMajo
 /// A cube whose points may be hollow, or part of them. Working frame.
 struct RegionPart {
   Vec3 centre;
-  double depth; ///< behind the surface, negative outside
-  Vec3 inwards; ///< unit, where the depth grows
+  double depth;            ///< behind the surface, negative outside
+  Eigen::Vector3f inwards; ///< unit, where the depth grows
   /// Above 0 a cube of 2^(level − 1) cells a side, all hollow; else 2^(level − 1) as wide as a
   /// cell.
   int level;
@@ -25,18 +26,21 @@ struct RegionPart {
   int opposite = -1; ///< another border's index in `opposites`; −1 where there is none
 };
 struct RegionParts {
-  double edge = 0.0; ///< of a cell
-  double wall = 0.0; ///< what may be hollow is deeper
-  std::vector<RegionPart> parts;
+  double edge = 0.0;            ///< of a cell
+  double wall = 0.0;            ///< what may be hollow is deeper
+  std::deque<RegionPart> parts; ///< so many that a vector's growth would matter
   /// Of parts of level ≤ 0: how far the middle is from another border, whose slope is against
   /// theirs.
   std::vector<Sample> opposites = {};
 };
 
+/// Whether parts at the region's edges are divided once more: for sums alone they need not be.
+enum class AtEdges { Finer, AsElsewhere };
+
 /// The cubes that `admissibleCells` are made of, see there. `slack`: the share by which depths may
 /// be found too large, which is quicker.
 RegionParts admissibleParts(const TriangleTree& surface, double wall, int cells = 20000,
-                            double slack = 0.0);
+                            double slack = 0.0, AtEdges atEdges = AtEdges::Finer);
 
 /// The same with smaller cells where the rooms are narrow, a few across their mean width.
 RegionParts resolvedParts(const TriangleTree& surface, double wall);

@@ -26,7 +26,6 @@ public:
     add(part, opposite);
   }
 
-  std::size_t parts() const { return left_.parts.size(); }
   void addTo(RegionParts& result) const {
     const auto known = static_cast<int>(result.opposites.size());
     for (RegionPart part : left_.parts) {
@@ -41,7 +40,7 @@ private:
     const double size = all_.edge * std::ldexp(1.0, part.level - 1);
     const double half = 0.5 * std::sqrt(3.0) * size;
     const bool isBeyondItsPlane =
-        part.level <= 0 && part.depth + halfAlong(part.inwards, part) <= all_.wall;
+        part.level <= 0 && part.depth + halfAlong(part.inwards.cast<double>(), part) <= all_.wall;
     if (isBeyondItsPlane) return;
     const std::optional<Sample> side = side_(part, half);
     if (!side || side->value <= -half) return;
@@ -62,9 +61,9 @@ private:
 
   /// Of borders on the same side the nearer one counts.
   void keepCut(RegionPart part, const std::optional<Sample>& opposite, const Sample& side) {
-    if (side.slope.dot(part.inwards) >= 0.0) {
+    if (side.slope.dot(part.inwards.cast<double>()) >= 0.0) {
       part.depth = all_.wall + side.value;
-      part.inwards = side.slope;
+      part.inwards = side.slope.cast<float>();
       keep(part, opposite);
     } else {
       keep(part, opposite && opposite->value < side.value ? opposite : side);
@@ -78,7 +77,7 @@ private:
 
   bool leavesAll(const Sample& side, const RegionPart& part) const {
     if (side.value >= halfAlong(side.slope, part)) return true;
-    const bool isAlongOwn = side.slope.dot(part.inwards) >= 0.0;
+    const bool isAlongOwn = side.slope.dot(part.inwards.cast<double>()) >= 0.0;
     return part.level <= 0 && isAlongOwn && side.value >= part.depth - all_.wall;
   }
 
@@ -93,7 +92,7 @@ private:
       // Nothing else cuts a cube of cells; a part keeps its plane.
       smaller.depth = part.level > 0
                           ? std::max(part.depth - std::sqrt(3.0) * step, all_.wall + 2.0 * step)
-                          : part.depth + part.inwards.dot(way);
+                          : part.depth + part.inwards.cast<double>().dot(way);
       std::optional<Sample> moved = opposite;
       if (moved) moved->value += moved->slope.dot(way);
       smaller.cell = part.level == 1 ? cells_ : part.cell;
@@ -167,9 +166,6 @@ RegionParts partsLeft(const RegionParts& all, const std::function<SideOfPart()>&
       parts.add(all.parts[static_cast<std::size_t>(i)], static_cast<int>(i));
     }
   });
-  std::size_t left = 0;
-  for (const std::optional<PartsCut>& chunk : chunks) left += chunk->parts();
-  result.parts.reserve(left);
   for (std::optional<PartsCut>& chunk : chunks) {
     chunk->addTo(result);
     chunk.reset();
