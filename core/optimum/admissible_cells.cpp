@@ -242,7 +242,7 @@ RegionParts resolvedParts(const TriangleTree& surface, double wall) {
   constexpr int kRounds = 3; // what coarse cells say of the width is not exact
   constexpr double kAcross = 3.0;
   constexpr double kMost = 20000.0;       // at the border
-  constexpr double kMostParts = 300000.0; // a sixth of what the filter may take of memory
+  constexpr double kMostParts = 300000.0; // 17 MB
   constexpr double kNearEnough = 0.8;
   const Vec3 extent =
       (surface.vertices().colwise().maxCoeff() - surface.vertices().colwise().minCoeff())
