@@ -180,8 +180,8 @@ private:
         if (clean && isLess) return *std::move(clean);
         return result;
       }
-      if (isClean) clean = std::move(result);
-      if (!anew(held, vertices)) return clean ? *std::move(clean) : std::move(result);
+      if (isClean) clean = result;
+      if (!anew(held, vertices)) return clean ? *std::move(clean) : result;
     }
   }
 

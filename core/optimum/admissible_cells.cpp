@@ -252,7 +252,7 @@ RegionParts resolvedParts(const TriangleTree& surface, double wall) {
     const double area = borderArea(parts);
     if (area <= 0.0) break;
     const double width = 2.0 * cellsOf(parts).col(0).sum() / area;
-    const double count = static_cast<double>(parts.parts.size());
+    const auto count = static_cast<double>(parts.parts.size());
     const double edge = std::max({width / kAcross, std::sqrt(kCubesPerArea * area / kMost),
                                   parts.edge * std::sqrt(count / kMostParts)});
     if (edge > kNearEnough * parts.edge) break;
