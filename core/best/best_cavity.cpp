@@ -309,18 +309,14 @@ OpenedSet withWall(const OpenedSet& set, double wall) {
   return result;
 }
 
-/// The wall up to which there is room behind it; one that is `about` as thick is exact.
-double wallWithRoom(const TriangleTree& surface, double about) {
-  return wallWithRoomFor(largestInscribedBall(surface, about).radius);
-}
-
 /// Whether there is room behind a wall, which is looked for when it is asked for first.
 class Room {
 public:
   Room(const TriangleTree& surface, double wall) : surface_(surface), wall_(wall) {}
 
   bool isThere() {
-    if (!isThere_) isThere_ = wallWithRoom(surface_, wall_) >= wall_;
+    if (!isThere_)
+      isThere_ = wallWithRoomFor(largestInscribedBall(surface_, wall_).radius) >= wall_;
     return *isThere_;
   }
 
@@ -607,16 +603,18 @@ double edgeFor(const RegionParts& behindWall, const AdmissibleCells& cells) {
   return std::max(edge, kLeastEdge);
 }
 
-/// \pre there is room for a ball as wide as the wall
-bool seesRoom(const TriangleTree& surface, double wall) {
-  constexpr double kLarger = 2.0; // than is known here, if that will do
+/// Edges of cubes within which of any point a corner of them is: √3/2, and what rounding takes.
+constexpr double kToCorner = 0.87;
+
+/// `radius`: of a ball within the surface. \pre behind the wall it leaves one as wide as the wall
+bool seesRoom(const TriangleTree& surface, double wall, double radius) {
   const RegionParts behindWall = admissibleParts(surface, wall);
   const AdmissibleCells cells = cellsOf(behindWall);
   // Without cells there is no limit, and no quadric to go by.
   if (cells.rows() == 0) return false;
-  const double edge =
-      std::max(edgeThatResolves(kLarger * edgeFor(behindWall, cells), wall), kLeastEdge);
-  if (edge <= kResolves * wall) return true;
+  const double largest = kUncut * leewayOfEdge(surface) * edgeFor(behindWall, cells);
+  const double edge = std::max(edgeThatResolves(largest, wall), kLeastEdge);
+  if (radius - wall >= kToCorner * edge) return true;
   const std::optional<CavityContour> found = cavityContour(openedSet(surface, wall, edge), {});
   return found && found->contour.mesh.faces.rows() > 0;
 }
@@ -683,9 +681,14 @@ CavityResult bestPossibleCavity(const CavityTask& task, const OpenedSet& deliver
 double largestWallForBestPossible(const CavityTask& task,
                                   const std::function<void(double)>& progress) {
   constexpr double kNearly = 0.95; // cubes do not see what just fits
-  const double greatest = wallWithRoom(task.surface, task.wall);
-  const double wall = std::min(kNearly * greatest, task.wall);
-  const auto sees = [&](double some) { return seesRoom(task.surface, some); };
+  const double radius = largestInscribedBall(task.surface, task.wall).radius;
+  double wall = std::min(kNearly * wallWithRoomFor(radius), task.wall);
+  // In thin sheets a contour of all would take half a minute, for a wall that is hardly thicker.
+  constexpr double kSurely = 1.01;
+  constexpr double kHardly = 0.8;
+  const double surelySeen = radius - kSurely * kToCorner * kLeastEdge;
+  if (surelySeen >= kHardly * wall) wall = std::min(wall, surelySeen);
+  const auto sees = [&](double some) { return seesRoom(task.surface, some, radius); };
   return wall > 0.0 && sees(wall) ? wall : greatestWall(wall, sees, progress);
 }
 
