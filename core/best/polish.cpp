@@ -98,7 +98,7 @@ bool withdrawFromWalls(const CavityTask& task, double edge, const std::vector<ch
       task.goal,          task.weights, task.model.fillings, outer, task.model.solidMoments[0],
       contour.mesh.faces, inwards,      kMost * edge};
   displacement.movesLeast = true;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kRounds && !inwards.isZero(0.0); ++round) {
     Points moved = vertices;
     if (displace(displacement, moved).violation > kFeasibility) return false;
     const Vector ways = (moved - vertices).cwiseProduct(inwards).rowwise().sum();
