@@ -508,9 +508,10 @@ LayeredQuadric quadricInSmallerCells(const CavityTask& task, const OpenedSet& de
   const Vec3 extent = task.surface.upper() - task.surface.lower();
   const double count = extent.prod() / std::pow(deliverable.edge, 3);
   const auto most = static_cast<double>(std::numeric_limits<int>::max());
-  const RegionParts parts =
-      admissibleParts(task.surface, task.wall, static_cast<int>(std::min(count, most)));
-  const AdmissibleCells cells = cellsWithin(deliverable, parts);
+  // The parts take more than the cells, and are not needed any more then.
+  const AdmissibleCells cells =
+      cellsWithin(deliverable, admissibleParts(task.surface, task.wall,
+                                               static_cast<int>(std::min(count, most))));
   return cells.rows() == 0 ? task.bound->worth
                            : quadricWithin(cells, *task.bound, task.goal, task.weights,
                                            task.model.solidMoments, task.model.fillings);

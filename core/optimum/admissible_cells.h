@@ -42,7 +42,8 @@ enum class AtEdges { Finer, AsElsewhere };
 RegionParts admissibleParts(const TriangleTree& surface, double wall, int cells = 20000,
                             double slack = 0.0, AtEdges atEdges = AtEdges::Finer);
 
-/// The same with smaller cells where the rooms are narrow, a few across their mean width.
+/// The same with smaller cells where the rooms are narrow, a few across their mean width, as long
+/// as their parts take no more than about 17 MB.
 RegionParts resolvedParts(const TriangleTree& surface, double wall);
 
 /// The border is taken as a plane in each part of a cell, or as two where it has another one.

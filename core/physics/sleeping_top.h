@@ -18,9 +18,10 @@ struct Top {
 bool sleepsAt(const Top& top, double speed);
 
 /// The least angular speed above which it is stable at every speed, by the roots of polynomials,
-/// none is sampled; there may be a window of stable speeds below. Bands so narrow that friction
-/// takes a top through them before what grows there has doubled do not count. Empty where no speed
-/// is the last unstable one: the axial moment lies between the other two. [LRSM92]
+/// none is sampled; there may be a window of stable speeds below. Bands so narrow that friction, in
+/// 1000 turns for a factor of e, takes a top through them before what grows there has doubled do
+/// not count. Empty where no speed is the last unstable one: the axial moment lies between the
+/// other two. [LRSM92]
 /// \pre all moments of inertia are positive
 std::optional<double> sleepingSpeed(const Top& top);
 
