@@ -182,6 +182,88 @@ void restoreFeasibility(ScaledProblem& scaled, const MinimizeOptions& options) {
   }
 }
 
+/// The largest violation v as one more variable, the last, counted from the start in units that
+/// change it as much as the others do: h ≤ v, −h ≤ v, g ≤ v.
+class LargestViolation {
+public:
+  LargestViolation(ScaledProblem& scaled, const Vector& start)
+      : scaled_(scaled), count_(start.size()) {
+    const Evaluation& e = scaled.at(start);
+    start_ = violationOf(e);
+    const auto steepen = [&](const Matrix& jacobian) {
+      if (jacobian.rows() > 0) unit_ = std::max(unit_, jacobian.rowwise().norm().maxCoeff());
+    };
+    steepen(e.equalityJacobian);
+    steepen(e.inequalityJacobian);
+  }
+
+  bool isConstant() const { return unit_ == 0.0; }
+  std::size_t rows() const {
+    return static_cast<std::size_t>(2 * scaled_.equalityCount() + scaled_.inequalityCount());
+  }
+  /// What a change by this share of the violation at the start is in the last variable.
+  double change(double share) const { return share * start_ / unit_; }
+
+  static double objective(const std::vector<double>& x, std::vector<double>& gradient, void*) {
+    std::fill(gradient.begin(), gradient.end(), 0.0);
+    if (!gradient.empty()) gradient.back() = 1.0;
+    return x.back();
+  }
+
+  static void constraints(unsigned m, double* result, unsigned n, const double* x, double* gradient,
+                          void* self) {
+    auto& p = *static_cast<LargestViolation*>(self);
+    const Evaluation& e = p.scaled_.at(std::vector<double>(x, x + n - 1));
+    const Eigen::Index h = e.equalities.size();
+    const Eigen::Index g = e.inequalities.size();
+    Eigen::Map<Vector> values(result, m);
+    values << e.equalities, -e.equalities, e.inequalities;
+    values = (values.array() - p.start_) / p.unit_ - x[n - 1];
+    if (gradient == nullptr) return;
+    Eigen::Map<RowMatrix> rows(gradient, m, n);
+    rows.rightCols<1>().setConstant(-1.0);
+    auto jacobian = rows.leftCols(p.count_);
+    jacobian.topRows(h) = e.equalityJacobian / p.unit_;
+    jacobian.middleRows(h, h) = -e.equalityJacobian / p.unit_;
+    jacobian.bottomRows(g) = e.inequalityJacobian / p.unit_;
+  }
+
+private:
+  ScaledProblem& scaled_;
+  Eigen::Index count_;
+  double start_;
+  double unit_ = 0.0;
+};
+
+/// From the best point so far, whatever the objective becomes.
+void lowerLargestViolation(ScaledProblem& scaled, const MinimizeOptions& options) {
+  constexpr double kLittle = 1e-8; // of the violation
+  const Vector start = scaled.best().x;
+  LargestViolation problem(scaled, start);
+  if (problem.isConstant()) return;
+  const auto count = static_cast<std::size_t>(start.size());
+  nlopt::opt solver(nlopt::LD_SLSQP, static_cast<unsigned>(count + 1));
+  solver.set_min_objective(LargestViolation::objective, &problem);
+  const double exact = problem.change(kLittle);
+  solver.add_inequality_mconstraint(LargestViolation::constraints, &problem,
+                                    std::vector<double>(problem.rows(), exact));
+  std::vector<double> most(count + 1, options.range);
+  most.back() = std::numeric_limits<double>::infinity();
+  solver.set_upper_bounds(most);
+  for (double& bound : most) bound = -bound;
+  solver.set_lower_bounds(most);
+  solver.set_ftol_abs(exact);
+  solver.set_maxeval(options.maxEvaluations);
+  std::vector<double> x(start.data(), start.data() + start.size());
+  x.push_back(0.0);
+  double objective = 0.0;
+  try {
+    solver.optimize(x, objective);
+  } catch (const std::runtime_error&) {
+    // As in minimize(): the best point seen stands.
+  }
+}
+
 std::string describe(nlopt::result result) {
   switch (result) {
   case nlopt::FTOL_REACHED:
@@ -245,6 +327,9 @@ MinimizeResult minimize(const Problem& problem, const Vector& start,
     if (violation <= options.feasibility || (pass > 0 && violation > kNearer * violationBefore)) {
       break;
     }
+  }
+  if (options.comesNearest && isAnywhereFinite() && scaled.best().violation > options.feasibility) {
+    lowerLargestViolation(scaled, options);
   }
   MinimizeResult result = scaled.best();
   result.stopReason = isAnywhereFinite() ? stopReason : "no evaluation was finite";

@@ -33,6 +33,9 @@ struct MinimizeOptions {
   std::optional<double> objectiveScale;
   /// Box |x_j| ≤ range: past it the bound map is saturated.
   double range = 20.0;
+  /// Whether constraints that are out of reach are met as nearly as can be, by the largest of their
+  /// violations, whatever the objective becomes. As many evaluations again.
+  bool comesNearest = false;
 };
 
 struct MinimizeResult {
@@ -49,7 +52,8 @@ struct MinimizeResult {
 /// objective and constraints have gradients of about the same length at the start. Keeps the best
 /// of all points evaluated, for SLSQP may end on a worse or infeasible one. Where the constraints
 /// do not hold there, damped Gauss–Newton steps take the shortest way to where they do, or to the
-/// least squared violation when the goal is out of reach; see `violation`. [Kra88]
+/// least squared violation when the goal is out of reach; see `violation` and `comesNearest`.
+/// [Kra88]
 MinimizeResult minimize(const Problem& problem, const Vector& start,
                         const MinimizeOptions& options = {});
 

@@ -103,7 +103,7 @@ double gapOf(const CavityTask& task, const Body& body) {
 /// Whether a cavity shall be adjusted. Where none keeps the constraints there is no end to what
 /// would be tried for them, and steps along creases come of it.
 bool isWorthMoving(const CavityTask& task, const Body& unmoved, const Body& moved) {
-  constexpr double kMuch = 0.01; // of what is possible
+  constexpr double kMuch = 0.002; // of what is possible
   if (!servesBetter(task, moved, unmoved)) return false;
   return task.bound->isReachable() || moved.violation <= kFeasibility ||
          task.goal.insteadOfConstraints() || gapOf(task, unmoved) - gapOf(task, moved) > kMuch;

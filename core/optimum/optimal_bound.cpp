@@ -95,6 +95,7 @@ public:
   MinimizeResult bestFrom(const Moments& quadric) const {
     MinimizeOptions solver = solverOptions();
     solver.range = kRangeOfSharp;
+    solver.comesNearest = true;
     return minimize([&](const Vector& x) { return evaluate(x, sharpShare); },
                     sharpCoefficients(quadric), solver);
   }

@@ -198,5 +198,37 @@ TEST(Minimize, GoesToTheLeastViolationOfMoreEqualitiesThanVariables) {
   EXPECT_NEAR(result.violation, 0.5, 1e-3);
 }
 
+/// x² + y² = 1 and x ≥ 2, twice, at once.
+Evaluation outOfReach(const Vector& x) {
+  Evaluation e;
+  e.objective = x[1];
+  e.objectiveGradient = vector({0, 1});
+  e.equalities = vector({x.squaredNorm() - 1});
+  e.equalityJacobian = 2 * x.transpose();
+  e.inequalities = Vector::Constant(2, 2 - x[0]);
+  e.inequalityJacobian.resize(2, 2);
+  e.inequalityJacobian << -1, 0, -1, 0;
+  return e;
+}
+
+TEST(Minimize, ComesNearestByTheLargestViolation) {
+  MinimizeOptions options = patient();
+  const double squares = minimize(outOfReach, vector({0.5, 0.7}), options).violation;
+  options.comesNearest = true;
+  const MinimizeResult nearest = minimize(outOfReach, vector({0.5, 0.7}), options);
+  // Least where y = 0 and x² − 1 = 2 − x.
+  const double x = 0.5 * (std::sqrt(13.0) - 1.0);
+  EXPECT_LT((nearest.x - vector({x, 0})).norm(), 1e-3);
+  EXPECT_NEAR(nearest.violation, 2.0 - x, 1e-6);
+  EXPECT_GT(squares, 1.03 * nearest.violation);
+}
+
+TEST(Minimize, DoesNotGiveUpTheObjectiveWhereConstraintsHold) {
+  MinimizeOptions options = patient();
+  const MinimizeResult plain = minimize(constrained, vector({3.0, -2.0}), options);
+  options.comesNearest = true;
+  EXPECT_EQ(minimize(constrained, vector({3.0, -2.0}), options).x, plain.x);
+}
+
 } // namespace
 } // namespace massprops::testing
