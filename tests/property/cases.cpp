@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
+/// Never asked twice in one call or sum: the order of evaluation there is the compiler's choice.
 class Chance {
 public:
   Chance(std::uint32_t seed, int number)
@@ -39,7 +40,10 @@ public:
       if (v.norm() > 0.1 && v.norm() < 1.0) return v.normalized();
     }
   }
-  Mat3 turn() { return rotation(direction(), between(0.0, kPi)); }
+  Mat3 turn() {
+    const double angle = between(0.0, kPi);
+    return rotation(direction(), angle);
+  }
 
 private:
   Random random_;
@@ -96,7 +100,8 @@ TriangleMesh smoothBlob(Chance& chance) {
     waves.push_back({chance.direction(), frequency, chance.between(0.0, 2 * kPi),
                      chance.between(0.0, 0.35) / frequency});
   }
-  const Vec3 stretch(1.0, chance.between(0.4, 1.0), chance.between(0.4, 1.0));
+  const double height = chance.between(0.4, 1.0);
+  const Vec3 stretch(1.0, chance.between(0.4, 1.0), height);
   return transformed(starShaped(
                          [&](const Vec3& u) {
                            double r = 1.0;
@@ -142,12 +147,19 @@ TriangleMesh bent(const TriangleMesh& mesh, double angle, double wave) {
 }
 
 TriangleMesh plate(Chance& chance) {
-  const Vec3 size(1.0, chance.between(0.4, 1.0), chance.logBetween(0.008, 0.2));
-  const TriangleMesh flat = chance.oneIn(2)
-                                ? box(size, chance.integer(3, 14))
-                                : roundedBox(size, chance.between(0.2, 0.49) * size.z(),
-                                             chance.integer(4, 10), chance.integer(1, 2));
-  return chance.oneIn(3) ? flat : bent(flat, chance.between(0.0, 2.5), chance.between(0.0, 0.08));
+  const double thickness = chance.logBetween(0.008, 0.2);
+  const Vec3 size(1.0, chance.between(0.4, 1.0), thickness);
+  TriangleMesh flat;
+  if (chance.oneIn(2)) {
+    flat = box(size, chance.integer(3, 14));
+  } else {
+    const int arcSegments = chance.integer(1, 2);
+    const int flatSegments = chance.integer(4, 10);
+    flat = roundedBox(size, chance.between(0.2, 0.49) * thickness, flatSegments, arcSegments);
+  }
+  if (chance.oneIn(3)) return flat;
+  const double wave = chance.between(0.0, 0.08);
+  return bent(flat, chance.between(0.0, 2.5), wave);
 }
 
 TriangleMesh tube(Chance& chance) {
@@ -232,8 +244,9 @@ TriangleMesh limbs(Chance& chance, bool cut) {
         parts[static_cast<std::size_t>(chance.integer(0, static_cast<int>(parts.size()) - 1))];
     const double r = chance.between(0.05, 0.15);
     const Vec3 start = trunk.from + chance.between(0.2, 1.0) * (trunk.to - trunk.from);
-    parts.push_back({start, start + chance.between(0.3, 0.8) * chance.direction(), r,
-                     chance.between(0.4, 1.0) * r});
+    const Vec3 direction = chance.direction();
+    const Vec3 end = start + chance.between(0.3, 0.8) * direction;
+    parts.push_back({start, end, r, chance.between(0.4, 1.0) * r});
     area += 0.5 * 2 * kPi * r;
   }
   const double blend = chance.between(0.02, 0.2);
@@ -258,11 +271,15 @@ TriangleMesh limbs(Chance& chance, bool cut) {
 }
 
 TriangleMesh bevelled(Chance& chance) {
-  const Vec3 size(1.0, chance.between(0.3, 1.0), chance.between(0.3, 1.5));
+  const double height = chance.between(0.3, 1.5);
+  const Vec3 size(1.0, chance.between(0.3, 1.0), height);
   switch (chance.integer(1, 3)) {
-  case 1:
-    return roundedBox(size, chance.between(0.05, 0.45) * size.minCoeff(), chance.integer(1, 10),
-                      chance.integer(1, 3));
+  case 1: {
+    const int arcSegments = chance.integer(1, 3);
+    const int flatSegments = chance.integer(1, 10);
+    const double radius = chance.between(0.05, 0.45) * size.minCoeff();
+    return roundedBox(size, radius, flatSegments, arcSegments);
+  }
   case 2:
     return box(size, chance.integer(1, 14));
   default: {
@@ -279,7 +296,10 @@ TriangleMesh bevelled(Chance& chance) {
 
 /// Few vertices, large angles.
 TriangleMesh coarse(Chance& chance) {
-  const auto point = [&] { return Vec3(chance.direction() * chance.between(0.5, 1.0)); };
+  const auto point = [&] {
+    const double distance = chance.between(0.5, 1.0);
+    return Vec3(distance * chance.direction());
+  };
   switch (chance.integer(1, 4)) {
   case 1: {
     std::array<Vec3, 4> p;
@@ -288,21 +308,25 @@ TriangleMesh coarse(Chance& chance) {
     } while ((p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]) < 0.05);
     return tetrahedron(p[0], p[1], p[2], p[3]);
   }
-  case 2:
-    return ellipsoid({1.0, chance.between(0.2, 1.0), chance.between(0.2, 1.0)},
-                     chance.integer(1, 2));
+  case 2: {
+    const int subdivisions = chance.integer(1, 2);
+    return ellipsoid({1.0, chance.between(0.2, 1.0), chance.between(0.2, 1.0)}, subdivisions);
+  }
   case 3: {
     std::vector<Vec2> profile{{0.0, 1.0}};
-    for (int i = chance.integer(1, 5); i > 0; --i)
-      profile.emplace_back(chance.between(0.1, 0.8),
-                           profile.back().y() - chance.between(0.05, 0.4));
+    for (int i = chance.integer(1, 5); i > 0; --i) {
+      const double drop = chance.between(0.05, 0.4);
+      profile.emplace_back(chance.between(0.1, 0.8), profile.back().y() - drop);
+    }
     profile.emplace_back(0.0, profile.back().y() - chance.between(0.0, 0.3));
     return revolved(profile, chance.integer(3, 12));
   }
-  default:
-    return transformed(box({1, 1, 1}, chance.integer(1, 2)),
-                       Vec3(chance.between(0.3, 1), 1, chance.between(0.3, 1)).asDiagonal() *
-                           shear(chance.between(0.0, 1.0)));
+  default: {
+    const Mat3 sheared = shear(chance.between(0.0, 1.0));
+    const double height = chance.between(0.3, 1);
+    const Mat3 map = Vec3(chance.between(0.3, 1), 1, height).asDiagonal() * sheared;
+    return transformed(box({1, 1, 1}, chance.integer(1, 2)), map);
+  }
   }
 }
 
@@ -330,7 +354,8 @@ TriangleMesh severalBodies(Chance& chance) {
     TriangleMesh part = oneBody(
         chance, std::array<int, 5>{0, 3, 4, 7, 8}[static_cast<std::size_t>(chance.integer(0, 4))],
         ignored);
-    part = scaled(transformed(part, chance.turn()), chance.between(0.4, 1.0));
+    const double factor = chance.between(0.4, 1.0);
+    part = scaled(transformed(part, chance.turn()), factor);
     x += chance.between(0.01, 0.5);
     part = transformed(part, Mat3::Identity(),
                        {x - part.vertices.col(0).minCoeff(), chance.between(-0.3, 0.3),
