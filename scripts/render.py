@@ -473,11 +473,12 @@ def add_panel(window, size, scene, viewport, body, marks):
 
 
 def body_actors(scene, outer, inner):
-    result = [actor(clipped(with_normals(poly_data(*outer)), scene.plane), OUTER, 0.12, 0.85, 0.15)]
+    # Normals come last: clipping makes one point of those on both sides of a crease.
+    result = [actor(with_normals(clipped(poly_data(*outer), scene.plane)), OUTER, 0.12, 0.85, 0.15)]
     meshes = [outer]
     if inner is not None:
         # The cavity is seen from within whatever way its triangles are turned.
-        result.append(actor(clipped(with_normals(poly_data(*inner)), scene.plane), CAVITY, 0.15, 0.85))
+        result.append(actor(with_normals(clipped(poly_data(*inner), scene.plane)), CAVITY, 0.15, 0.85))
         vertices, faces = inner
         meshes.append((vertices, faces[:, ::-1]) if signed_volume(inner) > 0 else inner)
     cap = section(meshes, scene.plane)
