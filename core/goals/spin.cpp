@@ -142,10 +142,12 @@ private:
 
   std::string middleMoment(const Moments& massMoments) const {
     const Top top = topOf(massMoments, lengthUnit_);
-    return "it has its middle moment of inertia about the axis, so that it falls over at every "
-           "speed (on its tip I_zz/A = " +
-           toString(top.axial / top.acrossA) + ", I_zz/B = " + toString(top.axial / top.acrossB) +
-           ")";
+    return std::string(turnsPerMinute(massMoments)
+                           ? "it has hardly its greatest or least moment of inertia about the axis"
+                           : "it has its middle moment of inertia about the axis, so that it falls "
+                             "over at every speed") +
+           " (on its tip I_zz/A = " + toString(top.axial / top.acrossA) +
+           ", I_zz/B = " + toString(top.axial / top.acrossB) + ")";
   }
 
   static std::string wholeNumber(double value) { return std::to_string(std::llround(value)); }

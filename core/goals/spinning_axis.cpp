@@ -63,7 +63,7 @@ GoalConstraints notTheMiddleMoment(const Moments& massMoments, TurnsAbout point,
   const double xy = I(0, 1);
   const double unit = solidInertia * solidInertia;
   GoalConstraints g{Vector(1), MomentGradients(1, 10)};
-  g.values[0] = (xy * xy - xx * yy) / unit;
+  g.values[0] = kOffTheMiddle + (xy * xy - xx * yy) / unit;
   g.gradients.row(0) = (2.0 * xy * dI.row(3) - yy * (dI.row(2) - dI.row(0) - dShift) -
                         xx * (dI.row(2) - dI.row(1) - dShift)) /
                        unit;

@@ -371,7 +371,8 @@ TEST(SpinGoal, AsksForAMomentThatIsNotBetweenTheOtherTwoOnTheTip) {
   const Moments turned = momentsOf(transformed(transformed(box(s, 1), rotation(Vec3::UnitZ(), 0.7)),
                                                Mat3::Identity(), {0, 0, height}));
   for (const Moments& body : {m, turned}) {
-    EXPECT_NEAR(spinGoal(m)->inequalities(body).values[1], -(C - A) * (C - B) / (C * C), 1e-12);
+    EXPECT_NEAR(spinGoal(m)->inequalities(body).values[1], 1e-4 - (C - A) * (C - B) / (C * C),
+                1e-12);
   }
 }
 
@@ -465,9 +466,37 @@ TEST(YoYoGoal, IsNotReachedAboutTheMiddleMomentOfTheCentre) {
   const double A = 0.45;
   const double B = 1.36;
   const double C = 1.09;
-  EXPECT_NEAR(largestViolation(*goal, m), (C - A) * (B - C) / (C * C), 1e-12);
+  EXPECT_NEAR(largestViolation(*goal, m), 1e-4 + (C - A) * (B - C) / (C * C), 1e-12);
   EXPECT_EQ(makeYoYoVerdict(m, {0, 0, 0.4}, 1.0)->worstViolation(m).rfind("it has its middle", 0),
             0U);
+}
+
+TEST(SpinAndYoYoGoal, AskForMoreThanHardlyTheGreatestMoment) {
+  const auto isNamed = [](const Verdict& verdict, const Moments& m) {
+    return verdict.worstViolation(m).rfind("it has hardly its greatest or least moment", 0) == 0;
+  };
+  // Of a box of the width 1, the depth y and the height z the moments are as y² + z², 1 + z² and,
+  // about the vertical, 1 + y².
+  const double z = 0.6;
+  for (const auto& [y, isEnough] : {std::pair(0.6002, false), std::pair(0.61, true)}) {
+    const Moments m = boxOnTip({1.0, y, z}, 0.3);
+    const auto verdict = makeYoYoVerdict(m, {0, 0, 0.3}, 1.0);
+    EXPECT_TRUE(verdict->isReached(m));
+    const double missing = 1e-4 - (1.0 - z * z) * (y * y - z * z) / ((1.0 + y * y) * (1.0 + y * y));
+    EXPECT_EQ(missing <= 0.0, isEnough);
+    EXPECT_NEAR(largestViolation(*makeYoYoGoal(m, kPublished, {0, 0, 0.3}), m),
+                std::max(0.0, missing), 1e-12);
+    EXPECT_EQ(isNamed(*verdict, m), !isEnough);
+  }
+  // On a tip below the middle by h those across are greater by 12 h².
+  const double h = 0.1;
+  const double less = 2.0 * h * 2.0 * h + 12.0 * h * h;
+  const double excess = 1e-4;
+  const Moments m = boxOnTip({1.0, std::sqrt(less + excess), 2.0 * h}, h);
+  const double vertical = 1.0 + less + excess;
+  EXPECT_NEAR(largestViolation(*spinGoal(m), m),
+              1e-4 - (1.0 - less) * excess / (vertical * vertical), 1e-12);
+  EXPECT_TRUE(isNamed(*spinVerdict(m), m)) << spinVerdict(m)->worstViolation(m);
 }
 
 TEST(YoYoGoal, IsReachedWithTheCentreInTheMiddleOfTheAxleOnly) {
