@@ -501,8 +501,9 @@ double violationOf(const PropertyCase& c, const Upright& frame, const Body& body
     const double axial = (frame.turn * solid.inertia * frame.turn.transpose())(2, 2);
     const bool isYoYo = c.options.goal == GoalKind::YoYo;
     const Vec2 across = momentsAcross(inertia, isYoYo ? 0.0 : centre.z() * frame.length, body.mass);
+    constexpr double kOffTheMiddle = 1e-4;
     const double between =
-        (inertia(2, 2) - across[0]) * (across[1] - inertia(2, 2)) / (axial * axial);
+        kOffTheMiddle + (inertia(2, 2) - across[0]) * (across[1] - inertia(2, 2)) / (axial * axial);
     return std::max({isYoYo ? std::abs(centre.z()) : -centre.z(), aside,
                      std::abs(inertia(0, 2)) / axial, std::abs(inertia(1, 2)) / axial, between});
   }
