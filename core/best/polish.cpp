@@ -70,6 +70,7 @@ Polished polish(const CavityTask& task, const LayeredQuadric& quadric, Moving mo
                                 directions,
                                 kFarthest * edge};
   displacement.raisesLevel = true;
+  displacement.comesNearest = isOutOfReach;
   if (moving == Moving::CutAlone) {
     const Displaced done = displace(displacement, vertices);
     return {done.evaluations, done.violation, done.isFarthest};

@@ -286,7 +286,9 @@ LinearConditions constraintsNear(const Goal& goal, const Moments& body) {
 void findNearest(const Goal& goal, const Weights& weights, const Moments& solid,
                  const Fillings& fillings, const AdmissibleCells& cells, OptimalBound& bound) {
   const bool isOne = fillings.size() == 1 && !fillings.front().isPartial();
-  if (!isOne || bound.violation <= OptimalBound::kReachable || weights.constraints == 0.0) return;
+  if (!isOne || bound.violation <= OptimalBound::kReachable || weights.constraints == 0.0 ||
+      goal.insteadOfConstraints())
+    return;
   constexpr int kMost = 4;
   constexpr double kLess = 0.999;
   const HollowBodies bodies(goal, weights, solid, fillings, cells);
@@ -433,6 +435,7 @@ OptimalBound optimalBound(const Goal& goal, const Weights& weights, const Moment
   if (!isMeasured && bound.violation > OptimalBound::kReachable) {
     bound.levels = levelsOf(goal, solid, fillings, cells);
     findNearest(goal, weights, solid, fillings, cells, bound);
+    if (bound.violation <= OptimalBound::kReachable) bound.levels.clear();
   }
   bound.massMomentsInAll = bound.massMoments;
   bound.violationInAll = bound.violation;

@@ -129,7 +129,7 @@ Displaced displace(const DisplacementTask& task, Points& vertices) {
   options.feasibility = 0.1 * kFeasibility; // rounding needs the rest
   options.range = 1.0 / kUnit;
   options.maxEvaluations = 40;
-  options.comesNearest = true;
+  options.comesNearest = task.comesNearest;
   MinimizeResult result;
   int evaluations = 0;
   // From where very many conditions are as good as active, as on a round contact area, SLSQP may

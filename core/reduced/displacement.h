@@ -23,6 +23,9 @@ struct DisplacementTask {
   bool raisesLevel = false;
   /// Whether vertices move by no more than the constraints ask for, whatever the objective becomes.
   bool movesLeast = false;
+  /// Whether constraints that are out of reach are met as nearly as can be, whatever the objective
+  /// becomes.
+  bool comesNearest = false;
 };
 
 struct Displaced {
