@@ -223,9 +223,11 @@ public:
     Eigen::Map<RowMatrix> rows(gradient, m, n);
     rows.rightCols<1>().setConstant(-1.0);
     auto jacobian = rows.leftCols(p.count_);
-    jacobian.topRows(h) = e.equalityJacobian / p.unit_;
-    jacobian.middleRows(h, h) = -e.equalityJacobian / p.unit_;
-    jacobian.bottomRows(g) = e.inequalityJacobian / p.unit_;
+    if (h > 0) {
+      jacobian.topRows(h) = e.equalityJacobian / p.unit_;
+      jacobian.middleRows(h, h) = -e.equalityJacobian / p.unit_;
+    }
+    if (g > 0) jacobian.bottomRows(g) = e.inequalityJacobian / p.unit_;
   }
 
 private:

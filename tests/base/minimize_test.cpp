@@ -223,6 +223,30 @@ TEST(Minimize, ComesNearestByTheLargestViolation) {
   EXPECT_GT(squares, 1.03 * nearest.violation);
 }
 
+TEST(Minimize, ComesNearestToEqualitiesOrInequalitiesAlone) {
+  // x = 0 and x = 3, or x ≤ 0 and x ≥ 3 twice.
+  const auto equalities = [](const Vector& x) {
+    Evaluation e;
+    e.objectiveGradient = Vector::Zero(2);
+    e.equalities = vector({x[0], x[0] - 3, x[0] - 3});
+    e.equalityJacobian = Matrix::Zero(3, 2);
+    e.equalityJacobian.col(0).setOnes();
+    return e;
+  };
+  const auto inequalities = [](const Vector& x) {
+    Evaluation e;
+    e.objectiveGradient = Vector::Zero(2);
+    e.inequalities = vector({x[0], 3 - x[0], 3 - x[0]});
+    e.inequalityJacobian = Matrix::Zero(3, 2);
+    e.inequalityJacobian.col(0) = vector({1, -1, -1});
+    return e;
+  };
+  MinimizeOptions options = patient();
+  options.comesNearest = true;
+  EXPECT_NEAR(minimize(equalities, vector({0.5, 0.7}), options).violation, 1.5, 1e-6);
+  EXPECT_NEAR(minimize(inequalities, vector({0.5, 0.7}), options).violation, 1.5, 1e-6);
+}
+
 TEST(Minimize, DoesNotGiveUpTheObjectiveWhereConstraintsHold) {
   MinimizeOptions options = patient();
   const MinimizeResult plain = minimize(constrained, vector({3.0, -2.0}), options);
