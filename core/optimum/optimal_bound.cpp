@@ -272,6 +272,7 @@ void findLeastAboutAxis(const Goal& goal, const Weights& weights, const Moments&
 LinearConditions constraintsNear(const Goal& goal, const Moments& body) {
   const auto affine = [&](const GoalConstraints& constraints) {
     AffineRows rows(constraints.values.size(), 11);
+    if (rows.rows() == 0) return rows;
     rows.leftCols<10>() = constraints.gradients;
     rows.col(10) = constraints.values - constraints.gradients * body;
     return rows;
