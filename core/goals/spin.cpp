@@ -142,10 +142,11 @@ private:
 
   std::string middleMoment(const Moments& massMoments) const {
     const Top top = topOf(massMoments, lengthUnit_);
-    return std::string(turnsPerMinute(massMoments)
-                           ? "it has hardly its greatest or least moment of inertia about the axis"
-                           : "it has its middle moment of inertia about the axis, so that it falls "
-                             "over at every speed") +
+    return std::string(
+               turnsPerMinute(massMoments)
+                   ? "its moment of inertia about the axis is barely the greatest or the least"
+                   : "it has its middle moment of inertia about the axis, so that it falls "
+                     "over at every speed") +
            " (on its tip I_zz/A = " + toString(top.axial / top.acrossA) +
            ", I_zz/B = " + toString(top.axial / top.acrossB) + ")";
   }

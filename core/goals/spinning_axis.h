@@ -21,8 +21,8 @@ GoalConstraints axisConstraints(const Moments& massMoments, const Vec2& axis, do
 /// What the body turns about: its centre of mass, or the tip on the ground below that.
 enum class TurnsAbout { Centre, Tip };
 
-/// By how much the product of the differences between the moment about the vertical and the two
-/// across shall exceed 0, in squares of the solid's: the best body often has no more than that.
+/// What the product of the differences between the moment about the vertical and the two across it
+/// shall exceed, in squares of the solid's I_zz: with a product of 0 rounding decides what spins.
 constexpr double kOffTheMiddle = 1e-4;
 
 /// One, ≤ 0: the moment about the vertical is not between the two across, nor next to one of them,

@@ -121,10 +121,11 @@ private:
   }
 
   static std::string middleMoment(const SpinningAxis& axis) {
-    return std::string(isStable(axis)
-                           ? "it has hardly its greatest or least moment of inertia about the axis"
-                           : "it has its middle moment of inertia about the axis, about which no "
-                             "body spins steadily") +
+    return std::string(
+               isStable(axis)
+                   ? "its moment of inertia about the axis is barely the greatest or the least"
+                   : "it has its middle moment of inertia about the axis, about which no "
+                     "body spins steadily") +
            " (I_zz/I_a = " + toString(axis.ratioA) + ", I_zz/I_b = " + toString(axis.ratioB) + ")";
   }
 
