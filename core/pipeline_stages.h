@@ -4,15 +4,16 @@
 #include "core/answer/print_margins.h"
 #include "core/base/options.h"
 #include "core/base/stopwatch.h"
-#include "core/contour/opened_set.h"
 #include "core/drill/drainage.h"
 #include "core/goals/goal.h"
 #include "core/goals/verdict.h"
 #include "core/model/foot.h"
 #include "core/model/posed_model.h"
 #include "core/model/solid.h"
+#include "core/optimum/admissible_cells.h"
 #include "core/optimum/certificate.h"
 #include "core/optimum/optimal_bound.h"
+#include "core/overhang/ceiling.h"
 #include "core/pipeline.h"
 #include "core/query/triangle_tree.h"
 #include "core/reduced/cavity_search.h"
@@ -93,15 +94,28 @@ Preparation prepare(const TriangleMesh& model, const Options& options, ProgressB
 /// where it has an opening that is no defect
 Solid mend(const TriangleMesh& model, const Options& options, ProgressBar& bar);
 
+/// Whether what is delivered is the best possible cavity: where it is defined, for a closed surface
+/// that stays; else the offset surface.
+bool isBestPossible(const Options& options, bool isOpen);
+
+/// Cells in the model's bounding box, of which the best quadric is found: half as wide they change
+/// the limit by a tenth of a per cent.
+constexpr double kCells = 20000.0;
+
 /// The best of all cavities within an outer surface.
 struct Possible {
-  AdmissibleCells cells; ///< behind the walls
-  OptimalBound bound;
-  OpenedSet deliverable;
+  FeasibleSet set;
+  FeasibleRegion region;
+  AdmissibleCells cells; ///< all that lies behind the walls
+  OptimalBound bound;    ///< of these; its body is the best in what the ball reaches
   /// In which it is to serve the goal: where there is more than one, with every level of contents
-  /// between the bound's cells.
+  /// between the cells.
   Fillings states;
 };
+
+/// Empty: the wall leaves no room. `solid`: moments of the body within the surface.
+std::optional<Possible> possibleWithin(const TriangleTree& surface, double wall, const Goal& goal,
+                                       const Moments& solid, const Options& options);
 
 /// What moves inwards, if anything does, and what the best of all cavities could do.
 struct Foundation {
@@ -122,8 +136,6 @@ std::optional<double> depthOfBetterFoot(const Preparation& model, const Foundati
 struct Search {
   CavityTask task;
   CavityResult cavity;
-  /// That no offset surface exceeds this in the goal's measure; then none was looked for.
-  std::optional<double> offsetsAtMost = {};
   std::string shapeReason = {}; ///< why it has this shape
   /// Of the model, and of the outer surface as it has become.
   std::unique_ptr<Verdict> verdictBefore = {}, verdictAfter = {};
@@ -138,6 +150,13 @@ struct Search {
 /// The task refers to `model`, `foundation` and `options`, which must outlive it.
 Search search(const Preparation& model, const Foundation& foundation, const Options& options,
               ProgressBar& bar);
+
+/// The best possible cavity whose ceilings carry themselves. \pre overhang_angle is not 0
+CavityResult carriedCavity(const Preparation& model, const Possible& possible,
+                           const Options& options, CavityTask task);
+
+/// Whether ceilings carry themselves, of a cavity in the working frame.
+Ceiling ceilingOf(const Preparation& model, const Options& options, const TriangleMesh& cavity);
 
 /// Holes for the cavity, which is filled where they are not worth it and adjusted to what they take
 /// out.

@@ -4,12 +4,10 @@
 #include "core/base/triangle.h"
 #include "core/mesh/components.h"
 #include "core/optimum/admissible_cells.h"
-#include "core/optimum/parts_cut.h"
 #include "core/physics/moments.h"
 #include "core/reduced/hollow_body.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -40,45 +38,24 @@ double greatestDeviation(double most, const std::function<bool(double)>& holds) 
   return good;
 }
 
-/// What a slicer prints as infill: the material farther than the perimeters from its surfaces.
-class DeepMaterial {
-public:
-  DeepMaterial(const CavityTask& task, const CavityResult& cavity, double perimeters)
-      : inner_(cavity.inner, cavity.cavity.faces), perimeters_(perimeters) {
-    // A tree of the model costs as much as all else here.
-    const TriangleTree& given = task.surface;
-    const bool isGiven = !given.keepsOut() && cavity.outer == given.vertices();
-    if (!isGiven) own_.emplace(cavity.outer, given.faces(), TriangleTree::Order::Spatial);
-    outer_ = isGiven ? &given : &*own_;
-  }
-
-  /// `cells`: in the model's bounding box.
-  Moments moments(int cells) const {
-    RegionParts parts =
-        admissibleParts(*outer_, perimeters_, cells, outer_->slightSlack(), AtEdges::AsElsewhere);
-    if (inner_.faces().rows() > 0) parts = partsOutside(inner_, perimeters_, parts);
-    const AdmissibleCells deep = cellsOf(parts);
-    return deep.rows() > 0 ? Moments(deep.colwise().sum().transpose()) : Moments(Moments::Zero());
-  }
-
-private:
-  std::optional<TriangleTree> own_;
-  const TriangleTree* outer_ = nullptr;
-  TriangleTree inner_;
-  double perimeters_;
-};
-
-/// Thin sheets between the perimeters of two surfaces ask for small cells, but not always matter.
-double leastInfill(const std::function<double(int)>& infillInCells) {
-  constexpr std::array<int, 3> kCells{3125, 25000, 200000}; // half as wide each time
-  constexpr double kNearEnough = 0.01;
-  double infill = infillInCells(kCells[0]);
-  for (std::size_t i = 1; i < kCells.size(); ++i) {
-    const double before = infill;
-    infill = infillInCells(kCells[i]);
-    if (std::abs(infill - before) <= kNearEnough) break;
-  }
-  return infill;
+/// Moments of what a slicer prints as infill: the material farther than the perimeters from its
+/// surfaces.
+Moments deepMaterial(const CavityTask& task, const CavityResult& cavity, double perimeters) {
+  constexpr double kMostCells = 25000.0; // in the model's bounding box
+  // A tree of the model costs as much as all else here.
+  const TriangleTree& given = task.surface;
+  std::optional<TriangleTree> own;
+  if (given.keepsOut() || cavity.outer != given.vertices())
+    own.emplace(cavity.outer, given.faces(), TriangleTree::Order::Spatial);
+  const TriangleTree& outer = own ? *own : given;
+  const TriangleTree inner(cavity.inner, cavity.cavity.faces);
+  const FeasibleSet deep{outer, perimeters, 0.0, cavity.cavity.faces.rows() > 0 ? &inner : nullptr};
+  const Vec3 extent = outer.upper() - outer.lower();
+  const double edge = std::max(std::cbrt(extent.prod() / kMostCells), extent.maxCoeff() / 400.0);
+  const FeasibleRegion region = feasibleRegion(deep, edge);
+  if (region.isEmpty()) return Moments::Zero();
+  const AdmissibleCells cells = admissibleCells(region, Admissible::BehindWalls, kMostCells);
+  return cells.colwise().sum().transpose();
 }
 
 /// Moments of a surface whose vertices go by t along their directions, −most ≤ t ≤ most: in t
@@ -148,13 +125,10 @@ PrintMargins printMargins(const CavityTask& task, const CavityResult& cavity,
   const Moments body = hollowBody(task, cavity).mass;
   const Faces& faces = cavity.cavity.faces;
   PrintMargins margins;
-  const DeepMaterial material(task, cavity, perimeters);
-  margins.infill = leastInfill([&](int cells) {
-    const Moments deep = material.moments(cells);
-    return 1.0 - greatestDeviation(1.0, [&](double missing) {
-             return deep[0] == 0.0 || verdict.isReached(body - missing * deep);
-           });
-  });
+  const Moments deep = deepMaterial(task, cavity, perimeters);
+  margins.infill = 1.0 - greatestDeviation(1.0, [&](double missing) {
+                     return deep[0] == 0.0 || verdict.isReached(body - missing * deep);
+                   });
   if (faces.rows() == 0) return margins;
 
   const Moments inner = moments(cavity.inner, faces);

@@ -39,6 +39,14 @@ const std::vector<RefusedPair>& refusedPairs() {
        },
        "The best possible cavity needs a closed surface: set cavity_shape to Automatic or Offset "
        "surface, or close it with Remeshing > Close Holes."},
+      {[](const Options& o, bool) {
+         return moves(o) && o.cavityShape == CavityShape::BestPossible;
+       },
+       "The best possible cavity needs an outer surface that stays: set outer_lower_bound and "
+       "outer_upper_bound to 0, or cavity_shape to Automatic or Offset surface."},
+      {[](const Options& o, bool) { return overhangs(o) && o.cavityShape == CavityShape::Offset; },
+       "Ceilings carry themselves only in the best possible cavity: set cavity_shape to Automatic "
+       "or Best possible, or overhang_angle to 0."},
       {[](const Options& o, bool isOpen) { return isOpen && moves(o); },
        "An open surface stays where it is: set outer_lower_bound and outer_upper_bound to 0, or "
        "close it with Remeshing > Close Holes."},

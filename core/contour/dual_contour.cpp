@@ -13,6 +13,8 @@
 namespace massprops {
 namespace {
 
+constexpr double kAlmostAll = 0.98; // of an edge
+
 /// Where the border crosses an edge: a share of it, beyond 1 where it does not, and the slope
 /// there.
 struct Root {
@@ -103,21 +105,21 @@ private:
 class DualContouring {
 public:
   explicit DualContouring(const BorderLattice& lattice) : lattice_(lattice) {
-    vertexOf_.assign(lattice.cubes.size(), -1);
-    int count = 0;
-    for (std::size_t c = 0; c < vertexOf_.size(); ++c) {
+    const std::size_t count = lattice.cubes().size();
+    isCut_.resize(count);
+    for (std::size_t c = 0; c < count; ++c) {
       const unsigned inside = lattice.cornersInside(static_cast<int>(c));
-      if (inside != 0 && inside != 255) vertexOf_[c] = count++;
+      isCut_[c] = inside != 0 && inside != 255;
     }
-    contour_.mesh.vertices.resize(count, 3);
-    contour_.on.resize(at(count));
+    contour_.mesh.vertices.setZero(static_cast<Eigen::Index>(count), 3);
+    contour_.on.resize(count, On::Wall);
   }
 
   void placeVertices() {
     constexpr Eigen::Index kRun = 1024;
-    forChunks(static_cast<Eigen::Index>(vertexOf_.size()), kRun, [&](const Chunk& chunk) {
+    forChunks(static_cast<Eigen::Index>(isCut_.size()), kRun, [&](const Chunk& chunk) {
       for (auto c = static_cast<int>(chunk.begin); c < chunk.end; ++c) {
-        if (vertexOf_[at(c)] >= 0) placeVertex(c);
+        if (isCut_[at(c)]) placeVertex(c);
       }
     });
   }
@@ -141,14 +143,14 @@ public:
 
 private:
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
-  const Corner& corner(int c) const { return lattice_.corners[at(c)]; }
+  const LatticeCorner& corner(int c) const { return lattice_.corner(c); }
 
   /// `visit`(cube, axis): the edge along the axis that begins at the cube's first corner.
   template <class Visit>
   void forCrossedEdges(const Visit& visit) const {
-    for (std::size_t c = 0; c < vertexOf_.size(); ++c) {
-      if (vertexOf_[c] < 0) continue;
-      const std::array<int, 8>& corners = lattice_.cubes[c];
+    for (std::size_t c = 0; c < isCut_.size(); ++c) {
+      if (!isCut_[c]) continue;
+      const std::array<int, 8>& corners = lattice_.cubes()[c];
       for (int axis = 0; axis < 3; ++axis) {
         if (corner(corners[0]).isInside != corner(corners[at(1 << axis)]).isInside) visit(c, axis);
       }
@@ -172,14 +174,14 @@ private:
   Crossing crossing(int inside, int outside) const {
     const Vec3 from = lattice_.positionOf(inside);
     const Vec3 way = lattice_.positionOf(outside) - from;
-    constexpr double kAwayFromTakenOut = 0.6;
-    if (corner(outside).isTakenOut) return {from + kAwayFromTakenOut * way, On::Chamfer, {}};
-    constexpr double kAlmostAll = 0.98;
+    // Nothing tells where: well away from what the border shall keep away from.
+    const Crossing somewhere{from + 0.6 * way, On::Reach, {}};
+    if (corner(outside).isTakenOut) return somewhere;
     const CornerSamples b = lattice_.samplesAt(outside);
     if (b.value() > 0.0) return beyond(b, from + way, from + kAlmostAll * way);
     const CornerSamples a = lattice_.samplesAt(inside);
     Root first;
-    On on = On::Inset;
+    On on = On::Wall;
     const auto consider = [&](const std::optional<Sample>& atA, const std::optional<Sample>& atB,
                               On candidate) {
       if (!atA || !atB || atA->value <= 0.0 || atB->value > 0.0) return;
@@ -188,33 +190,42 @@ private:
       first = root;
       on = candidate;
     };
-    consider(a.inset, b.inset, On::Inset);
+    consider(a.wall, b.wall, On::Wall);
+    consider(a.open, b.open, On::Reach);
     consider(a.cut, b.cut, On::Cut);
-    consider(a.chamfer, b.chamfer, On::Chamfer);
-    if (!(first.t <= 1.0)) return {from + kAwayFromTakenOut * way, On::Chamfer, {}};
+    if (!b.isReached && a.open) {
+      // The reach of the ball that the corner inside has a place for ends somewhere on the way.
+      const double t = -a.open->value / a.open->slope.dot(way);
+      const double ends = t > 0.0 ? std::min(t, kAlmostAll) : kAlmostAll;
+      if (ends < first.t) {
+        first = {ends, a.open->slope};
+        on = On::Reach;
+      }
+    }
+    if (!(first.t <= 1.0)) return somewhere;
     const Vec3 point = from + first.t * way;
     return {point, on, {{point, first.slope}}};
   }
 
   /// On an edge that ends at x, which is left out although the border lies behind it.
-  Crossing beyond(const CornerSamples& samples, const Vec3& x, const Vec3& point) const {
-    std::optional<Sample> least = samples.inset;
-    On on = On::Inset;
+  static Crossing beyond(const CornerSamples& samples, const Vec3& x, const Vec3& point) {
+    std::optional<Sample> least = samples.wall;
+    On on = On::Wall;
     const auto consider = [&](const std::optional<Sample>& sample, On candidate) {
       if (!sample || (least && least->value <= sample->value)) return;
       least = sample;
       on = candidate;
     };
+    consider(samples.open, On::Reach);
     consider(samples.cut, On::Cut);
-    consider(samples.chamfer, On::Chamfer);
-    if (!least) return {point, On::Chamfer, {}};
+    if (!least) return {point, On::Reach, {}};
     return {point, on, {{x - least->value * least->slope, least->slope}}};
   }
 
   void placeVertex(int cube) {
     PlaneFit fit;
-    std::array<bool, 4> isOn{};
-    const auto& corners = lattice_.cubes[at(cube)];
+    std::array<bool, 3> isOn{};
+    const std::array<int, 8>& corners = lattice_.cubes()[at(cube)];
     for (int i = 0; i < 8; ++i) {
       for (const int step : {1, 2, 4}) {
         const int a = corners[at(i)];
@@ -227,30 +238,28 @@ private:
       }
     }
     constexpr double kFromSides = 0.02; // of the edge: no two vertices fall together
-    const Vec3 low = lattice_.positionOf(corners[0]) + Vec3::Constant(kFromSides * lattice_.edge);
-    const Vec3 high = low + Vec3::Constant((1.0 - 2.0 * kFromSides) * lattice_.edge);
-    const int v = vertexOf_[at(cube)];
-    contour_.mesh.vertices.row(v) = fit.nearest().cwiseMax(low).cwiseMin(high).transpose();
-    const bool isOnInset = isOn[static_cast<std::size_t>(On::Inset)];
-    const bool isOnCut = isOn[static_cast<std::size_t>(On::Cut)];
-    contour_.on[at(v)] = isOn[static_cast<std::size_t>(On::Chamfer)] ? On::Chamfer
-                         : isOnInset && isOnCut                      ? On::Crease
-                         : isOnCut                                   ? On::Cut
-                                                                     : On::Inset;
+    const double edge = lattice_.edge();
+    const Vec3 low = lattice_.positionOf(corners[0]) + Vec3::Constant(kFromSides * edge);
+    const Vec3 high = low + Vec3::Constant((1.0 - 2.0 * kFromSides) * edge);
+    contour_.mesh.vertices.row(cube) = fit.nearest().cwiseMax(low).cwiseMin(high).transpose();
+    const auto [isOnWall, isOnReach, isOnCut] = isOn;
+    contour_.on[at(cube)] = !isOnCut                ? (isOnReach ? On::Reach : On::Wall)
+                            : isOnWall || isOnReach ? On::Crease
+                                                    : On::Cut;
   }
 
   /// The quadrilateral around the edge along `axis` that begins at the cube's first corner.
   void connectAround(std::size_t cube, int axis) {
-    const int a = lattice_.cubes[cube][0];
-    const int b = lattice_.cubes[cube][at(1 << axis)];
+    const int a = lattice_.cubes()[cube][0];
+    const int b = lattice_.cubes()[cube][at(1 << axis)];
     const Place u = Place::Unit((axis + 1) % 3);
     const Place w = Place::Unit((axis + 2) % 3);
-    const Place place = corner(a).place();
+    const Place place = lattice_.placeOf(a);
     // Counter-clockwise seen from the end of the axis.
     std::array<int, 4> ring{};
     int k = 0;
     for (const Place& p : {place, Place(place - u), Place(place - u - w), Place(place - w)}) {
-      ring[at(k++)] = vertexOf_[at(lattice_.cubeAt(p))];
+      ring[at(k++)] = lattice_.cubeAt(p);
     }
     if (!corner(a).isInside) std::swap(ring[1], ring[3]);
     const Vec3 from = lattice_.positionOf(a);
@@ -316,7 +325,7 @@ private:
   }
 
   const BorderLattice& lattice_;
-  std::vector<int> vertexOf_; ///< for every cube, or −1
+  std::vector<bool> isCut_; ///< for every cube
   Contour contour_;
   Eigen::Index connected_ = 0; ///< triangles of quadrilaterals
   std::vector<Vec3> onEdges_;  ///< vertices that follow those of cubes
@@ -325,23 +334,11 @@ private:
 
 } // namespace
 
-Contour partOf(const Contour& contour, TriangleMesh mesh, const std::vector<int>& vertexOf) {
-  Contour part{std::move(mesh), {}, contour.unresolved};
-  part.on.reserve(vertexOf.size());
-  for (const int v : vertexOf) part.on.push_back(contour.on[static_cast<std::size_t>(v)]);
-  return part;
-}
-
 Contour dualContour(const BorderLattice& lattice) {
   DualContouring contouring(lattice);
   contouring.placeVertices();
   contouring.connect();
-  Contour contour = std::move(contouring).result();
-  if (!lattice.corners.empty()) {
-    contour.unresolved =
-        static_cast<double>(lattice.unresolved) / static_cast<double>(lattice.corners.size());
-  }
-  return contour;
+  return std::move(contouring).result();
 }
 
 } // namespace massprops

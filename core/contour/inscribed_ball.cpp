@@ -2,7 +2,7 @@
 
 #include "core/base/parallel.h"
 #include "core/base/triangle.h"
-#include "core/contour/opening.h"
+#include "core/optimum/feasible_region.h"
 
 #include <algorithm>
 #include <cmath>
@@ -86,16 +86,16 @@ std::optional<InscribedBall> ballAt(const TriangleTree& surface, const PointInMe
   return {};
 }
 
-/// A place that a ball `larger` by this factor fits at, again and again.
+/// Climbs to where a ball larger by this factor fits, again and again.
 void grow(const TriangleTree& surface, double larger, InscribedBall from, InscribedBall& best) {
   for (;;) {
-    OpeningProbe probe(surface, {larger * best.radius, from.radius});
-    const Sample depth = probe.depthAt(from.centre, false);
-    const std::optional<Sample> way = probe.at(from.centre, depth, kInfinity, 0.0);
-    if (!way) return;
-    from.centre += (from.radius - way->value) * way->slope;
-    from.radius = probe.depthAt(from.centre, false).value;
-    best = from;
+    RegionProbe probe({surface, 0.0, 0.0});
+    const Sample depth = probe.depthAt(from.centre, kInfinity);
+    const std::optional<Vec3> place =
+        probe.placeNear(from.centre, depth, larger * best.radius, from.radius);
+    if (!place) return;
+    best = {*place, probe.depthAt(*place, kInfinity).value};
+    from = best;
   }
 }
 

@@ -1,7 +1,7 @@
 #include "core/overhang/printable_bound.h"
 
-#include "core/base/parallel.h"
-#include "core/contour/cavity_contour.h"
+#include "core/contour/dual_contour.h"
+#include "core/optimum/admissible_cells.h"
 #include "core/overhang/ceiling.h"
 
 #include <memory>
@@ -15,11 +15,6 @@ bool isBetter(const OptimalBound& a, const OptimalBound& b) {
   if (a.violation > OptimalBound::kReachable || b.violation > OptimalBound::kReachable)
     return a.violation < b.violation;
   return a.measure && b.measure ? *a.measure > *b.measure : a.objective < b.objective;
-}
-
-OptimalBound bestWithin(const PrintableTask& task, const Printable& found) {
-  const AdmissibleCells cells = cellsWithin(found.set, task.behindWalls);
-  return withBodyWithin(cells, found.bound, task.goal, task.weights, task.solid, task.fillings);
 }
 
 /// A body and what is filled for it.
@@ -41,11 +36,10 @@ public:
   /// filled.
   void improve(int rounds) {
     constexpr double kHardlyAnything = 3e-4; // of the cavity
-    for (int round = 0; round < rounds && !isDone_; ++round) {
+    for (int round = 0; round < rounds; ++round) {
       const double share = fill_.add(found_.bound.worth);
-      isDone_ = share < kHardlyAnything;
-      if (share == 0.0) return;
-      takeFill();
+      if (share > 0.0) takeFill();
+      if (share < kHardlyAnything) return;
     }
   }
 
@@ -53,87 +47,46 @@ public:
   void stand(const std::vector<Vec3>& tips) {
     fill_.addColumns(tips);
     takeFill();
-    isDone_ = false;
-  }
-
-  /// As it is delivered, but for finer cubes and what polishing changes.
-  Ceiling ceiling() const {
-    const std::optional<CavityContour> cavity = cavityContour(found_.set, found_.bound.worth);
-    if (!cavity || cavity->contour.mesh.faces.rows() == 0) return {};
-    const OverhangWishes& wishes = task_.wishes;
-    return ceilingOf(cavity->contour.mesh, wishes.toPrint, wishes.leastAngle, wishes.tipDepth);
   }
 
 private:
   void takeFill() {
     isFilled_ = true;
-    found_.set.fill = std::make_shared<const GridFunction>(fill_.function());
-    found_.bound = bestWithin(task_, found_);
+    found_.region = within(fill_.function(), task_.region);
+    const AdmissibleCells cells = admissibleCells(found_.region, Admissible::Reached, task_.cells);
+    found_.bound = withBodyWithin(cells, std::move(found_.bound), task_.goal, task_.weights,
+                                  task_.solid, task_.fillings);
   }
 
   const PrintableTask& task_;
   SupportingFill fill_;
   Printable found_;
-  bool isDone_ = false, isFilled_ = false;
+  bool isFilled_ = false;
 };
-
-constexpr int kFirstRounds = 2; // they tell which spacing serves best
 
 } // namespace
 
-Printable printable(const PrintableTask& task, const OpenedSet& set, const OptimalBound& possible) {
-  constexpr int kRounds = 8;
-  constexpr int kColumnRounds = 4;
-  std::optional<Printable> first;
-  // What is thicker is torn less, what is finer has shorter spans; both cost more.
-  struct Attempt {
-    double halfThickness, edge;
-  };
-  for (const Attempt& attempt : {Attempt{0.8, 0.2}, Attempt{1.0, 0.175}, Attempt{1.4, 0.15}}) {
-    OverhangWishes tried = task.wishes;
-    tried.halfThickness = attempt.halfThickness;
-    tried.edge = attempt.edge;
-    SupportingFill none(set, tried);
-    Printable unfilled{possible, set};
-    if (task.within != nullptr) {
-      none.keepWithin(*task.within);
-      unfilled.set.fill = std::make_shared<const GridFunction>(none.function());
-      unfilled.bound = bestWithin(task, unfilled);
-    }
-    std::optional<Trial> chosen;
-    for (const auto& [some, more] : {std::pair(0.0, 0.3), {0.2, 0.13}}) {
-      std::optional<Trial> trials[2];
-      const auto start = [&](std::optional<Trial>& trial, double spacing) {
-        SupportingFill fill = none;
-        if (spacing > 0.0) fill.allowPillars(spacing);
-        trial.emplace(task, unfilled, std::move(fill));
-        trial->improve(kFirstRounds);
-      };
-      inParallel([&, spacing = some] { start(trials[0], spacing); },
-                 [&, spacing = more] { start(trials[1], spacing); });
-      for (std::optional<Trial>& trial : trials) {
-        if (!chosen || isBetter(trial->bound(), chosen->bound())) chosen.emplace(*std::move(trial));
-      }
-      if (!chosen->isFilled()) return chosen->found(); // nothing has to be carried
-    }
-    chosen->improve(kRounds);
-    for (int round = 0; round < kColumnRounds; ++round) {
-      const Ceiling ceiling = chosen->ceiling();
-      if (ceiling.tips.empty() && ceiling.widestSpan <= task.wishes.bridge) return chosen->found();
-      if (ceiling.tips.empty()) break;
-      chosen->stand(ceiling.tips);
-      chosen->improve(kFirstRounds);
-    }
-    if (!first) first.emplace(chosen->found());
+Printable printable(const PrintableTask& task, const OptimalBound& possible) {
+  constexpr int kRounds = 6;
+  const SupportingFill none(task.set, task.region.edge, task.wishes);
+  std::optional<Trial> best;
+  for (const double spacing : {0.0, 0.2}) { // of the diagonal, between pillars; 0: walls carry
+    SupportingFill fill = none;
+    if (spacing > 0.0) fill.allowPillars(spacing);
+    Trial trial(task, {possible, task.region}, std::move(fill));
+    trial.improve(kRounds);
+    if (!trial.isFilled()) return trial.found(); // nothing has to be carried
+    if (!best || isBetter(trial.bound(), best->bound())) best.emplace(std::move(trial));
   }
-  return *std::move(first);
+  return best->found();
 }
 
 Printable withColumns(const PrintableTask& task, const Printable& printable,
                       const std::vector<Vec3>& tips) {
+  constexpr int kRounds = 2;
   Trial trial(task, printable, *printable.filled);
   trial.stand(tips);
-  trial.improve(kFirstRounds);
+  trial.improve(kRounds);
   return trial.found();
 }
 

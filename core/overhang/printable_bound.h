@@ -13,7 +13,7 @@ namespace massprops {
 /// A body whose cavity prints without support inside.
 struct Printable {
   OptimalBound bound;                                ///< the proofs are those of all cavities
-  OpenedSet set;                                     ///< what it may take
+  FeasibleRegion region;                             ///< what it may take
   std::shared_ptr<const SupportingFill> filled = {}; ///< null: nothing
 };
 
@@ -23,15 +23,16 @@ struct PrintableTask {
   const Weights& weights;
   const Moments& solid;
   const Fillings& fillings;
-  const RegionParts& behindWalls; ///< before the set was opened
+  const FeasibleSet& set;
+  const FeasibleRegion& region; ///< without what is filled
+  double cells;                 ///< see `admissibleCells`
   const OverhangWishes& wishes;
-  const TriangleMesh* within = nullptr; ///< closed, outward, it is not left; null: none
 };
 
 /// What carries the ceilings of the best body's cavity is filled and the best body found anew in
-/// what is left, until it needs no more: a local optimum, not a bound. The best of several spacings
-/// between pillars. `possible`: the best body in the set.
-Printable printable(const PrintableTask& task, const OpenedSet& set, const OptimalBound& possible);
+/// what is left, until it needs no more: a local optimum, not a bound. With pillars or without, as
+/// serves better. `possible`: the best body in the region.
+Printable printable(const PrintableTask& task, const OptimalBound& possible);
 
 /// With columns below what hangs down. \pre something is filled
 Printable withColumns(const PrintableTask& task, const Printable& printable,

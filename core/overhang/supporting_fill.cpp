@@ -1,11 +1,8 @@
 #include "core/overhang/supporting_fill.h"
 
 #include "core/base/parallel.h"
-#include "core/contour/region.h"
 #include "core/overhang/layer_distance.h"
 #include "core/query/grid_sampling.h"
-#include "core/query/point_in_mesh.h"
-#include "core/query/triangle_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,24 +22,6 @@ constexpr float kBand = kSampledBand;
 std::size_t at(Eigen::Index i) {
   return static_cast<std::size_t>(i);
 }
-
-/// How deep points are in a closed outward surface.
-class Depth {
-public:
-  explicit Depth(const TriangleTree& surface) : surface_(surface), inside_(surface) {}
-
-  double operator()(const Vec3& x, double horizon) {
-    near_ = surface_.nearest(x, horizon * horizon, near_.face);
-    const bool isNear = near_.face >= 0;
-    const bool isInside = isNear ? inside_.contains(x, near_) : inside_.contains(x);
-    return (isInside ? 1.0 : -1.0) * (isNear ? std::sqrt(near_.squaredDistance) : horizon);
-  }
-
-private:
-  const TriangleTree& surface_;
-  PointInMesh inside_;
-  TriangleTree::Hit near_;
-};
 
 /// A layer's values, linear between nodes.
 class LayerValues {
@@ -354,28 +333,22 @@ private:
 
 } // namespace
 
-SupportingFill::SupportingFill(const OpenedSet& set, const OverhangWishes& wishes)
-    : set_(set), grid_(gridAround(set.surface.vertices(), wishes.toPrint,
-                                  wishes.edge * wishes.bridge, kMostNodes)),
+SupportingFill::SupportingFill(const FeasibleSet& set, double edge, const OverhangWishes& wishes)
+    : edge_(edge), grid_(gridAround(set.surface.vertices(), wishes.toPrint,
+                                    wishes.edge * wishes.bridge, kMostNodes)),
       run_(static_cast<float>(1.0 / std::tan(wishes.angle))) {
-  halfThickness_ = static_cast<float>(wishes.halfThickness * std::max(set.edge / grid_.edge, 1.0));
+  halfThickness_ = static_cast<float>(wishes.halfThickness * std::max(edge / grid_.edge, 1.0));
   fill_.assign(at(grid_.nodes()), kBand);
-  const Region region{set_.surface, set_.wall, set_.opening};
   inset_ = sampled(grid_, [&] {
-    return [probe = InsetProbe(region)](const Vec3& x, double horizon) mutable {
-      return probe.at(x, horizon).value;
+    return [probe = RegionProbe(set)](const Vec3& x, double horizon) mutable {
+      return probe.insetAt(x, horizon);
     };
   });
 }
 
-void SupportingFill::keepWithin(const TriangleMesh& cavity) {
-  const TriangleTree surface(cavity.vertices, cavity.faces);
-  fill_ = sampled(grid_, [&] { return Depth(surface); });
-}
-
 void SupportingFill::allowPillars(double spacing) {
   constexpr double kRadius = 1.5; // edges of the set's cubes
-  pillarRadius_ = static_cast<float>(kRadius * set_.edge / grid_.edge);
+  pillarRadius_ = static_cast<float>(kRadius * edge_ / grid_.edge);
   const auto inRow = static_cast<float>(spacing / grid_.edge);
   const float betweenRows = inRow * std::sqrt(3.0F) / 2.0F;
   const int rows = static_cast<int>(static_cast<float>(grid_.counts.y()) / betweenRows) + 1;
@@ -389,7 +362,7 @@ void SupportingFill::allowPillars(double spacing) {
 }
 
 double SupportingFill::add(const LayeredQuadric& quadric) {
-  const Region region{set_.surface, set_.wall, set_.opening, quadric, set_.edge};
+  const QuadricCut cut{quadric, edge_};
   const Eigen::Index layer = Eigen::Index(grid_.counts.x()) * grid_.counts.y();
   std::vector<char> isHollow(at(grid_.nodes()));
   std::vector<float> fresh(at(grid_.nodes()), kBand);
@@ -404,8 +377,8 @@ double SupportingFill::add(const LayeredQuadric& quadric) {
           const Eigen::Index n = grid_.nodeAt(i, j, k);
           float value = std::min(inset_[at(n)], fill_[at(n)]);
           if (value > -kBand) {
-            const double cut = cutAt(region, grid_.positionOf(i, j, k)).value / grid_.edge;
-            value = std::clamp(static_cast<float>(cut), -kBand, value);
+            const double side = cutAt(cut, grid_.positionOf(i, j, k)).value / grid_.edge;
+            value = std::clamp(static_cast<float>(side), -kBand, value);
           }
           hollow[at(n - first)] = value;
           isHollow[at(n)] = value > 0.0F ? 1 : 0;

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/base/types.h"
-#include "core/contour/opened_set.h"
-#include "core/optimum/layered_quadric.h"
+#include "core/contour/quadric_cut.h"
+#include "core/optimum/feasible_region.h"
 #include "core/query/grid_function.h"
 
 #include <memory>
@@ -28,11 +28,8 @@ struct OverhangWishes {
 /// angle, until it stands on a wall or a pillar. docs/math.md "Ceilings that carry themselves"
 class SupportingFill {
 public:
-  /// \pre points of the set exist
-  SupportingFill(const OpenedSet& set, const OverhangWishes& wishes);
-
-  /// The cavity stays within this surface, which is closed and outward. Before anything is added.
-  void keepWithin(const TriangleMesh& cavity);
+  /// `edge`: of the cubes that the cavity's surface is made with. \pre points of the set exist
+  SupportingFill(const FeasibleSet& set, double edge, const OverhangWishes& wishes);
 
   /// Pillars on a grid of triangles with edges of this length may carry, not walls alone. Before
   /// anything is added.
@@ -53,7 +50,7 @@ private:
   /// Above and below it through what is no cavity, so that nothing opens between fill and wall.
   void join(const std::vector<char>& isHollow, std::vector<float>& fresh) const;
 
-  OpenedSet set_;
+  double edge_; ///< of the cavity's cubes
   Grid grid_;
   float run_; ///< edges that material may reach out a layer
   float halfThickness_ = 0.0F;

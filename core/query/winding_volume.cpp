@@ -9,8 +9,23 @@
 
 namespace massprops {
 
+namespace {
+
+/// A low-discrepancy sequence in the unit cube: no grid, which would miss plates between its
+/// layers.
+Vec3 scattered(Eigen::Index i) {
+  constexpr double kPlastic = 1.2207440846057596; // root of x⁴ = x + 1
+  const auto turn = [&](int power) {
+    return std::fmod(0.5 + static_cast<double>(i) / std::pow(kPlastic, power), 1.0);
+  };
+  return {turn(1), turn(2), turn(3)};
+}
+
+} // namespace
+
 WindingVolume windingVolumes(const TriangleMesh& mesh, const TriangleMesh& other) {
-  constexpr double kCubes = 48.0; // along the longest side
+  constexpr Eigen::Index kPoints = 16384;
+  constexpr Eigen::Index kRun = 512;
   Eigen::AlignedBox3d box;
   for (const TriangleMesh* part : {&mesh, &other}) {
     if (part->vertices.rows() == 0) continue;
@@ -18,32 +33,22 @@ WindingVolume windingVolumes(const TriangleMesh& mesh, const TriangleMesh& other
     box.extend(Vec3(part->vertices.colwise().maxCoeff().transpose()));
   }
   if (box.isEmpty()) return {};
-  const double side = box.sizes().maxCoeff() / kCubes;
-  Eigen::Index count[3];
-  for (int k = 0; k < 3; ++k) {
-    count[k] =
-        std::max<Eigen::Index>(1, static_cast<Eigen::Index>(std::ceil(box.sizes()[k] / side)));
-  }
   const WindingNumber one(mesh.vertices, mesh.faces);
   const WindingNumber two(other.vertices, other.faces);
-  std::vector<Eigen::Index> inside(static_cast<std::size_t>(count[2]), 0);
+  std::vector<Eigen::Index> inside(static_cast<std::size_t>(chunkCount(kPoints, kRun)), 0);
   std::vector<Eigen::Index> insideOther = inside;
-  forChunks(count[2], 1, [&](const Chunk& chunk) {
-    const auto z = static_cast<std::size_t>(chunk.begin);
-    for (Eigen::Index y = 0; y < count[1]; ++y) {
-      for (Eigen::Index x = 0; x < count[0]; ++x) {
-        const Vec3 cube(static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5,
-                        static_cast<double>(z) + 0.5);
-        const Vec3 p = box.min() + side * cube;
-        if (std::abs(one.at(p)) >= 0.5) ++inside[z];
-        if (std::abs(two.at(p)) >= 0.5) ++insideOther[z];
-      }
+  forChunks(kPoints, kRun, [&](const Chunk& chunk) {
+    const auto run = static_cast<std::size_t>(chunk.number);
+    for (Eigen::Index i = chunk.begin; i < chunk.end; ++i) {
+      const Vec3 p = box.min() + box.sizes().cwiseProduct(scattered(i));
+      if (std::abs(one.at(p)) >= 0.5) ++inside[run];
+      if (std::abs(two.at(p)) >= 0.5) ++insideOther[run];
     }
   });
+  const double share = box.volume() / static_cast<double>(kPoints);
   WindingVolume result;
-  const double cube = side * side * side;
-  for (const Eigen::Index n : inside) result.volume += cube * static_cast<double>(n);
-  for (const Eigen::Index n : insideOther) result.otherVolume += cube * static_cast<double>(n);
+  for (const Eigen::Index n : inside) result.volume += share * static_cast<double>(n);
+  for (const Eigen::Index n : insideOther) result.otherVolume += share * static_cast<double>(n);
   return result;
 }
 

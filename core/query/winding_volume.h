@@ -5,7 +5,7 @@
 
 namespace massprops {
 
-/// Counted at the middles of cubes, 48 along the longest side of the box.
+/// Counted at 16,384 points scattered in the box: a tenth of the box to 2 %.
 struct WindingVolume {
   double volume =
       0.0; ///< where the first mesh goes round at least half of a time, either way, length³

@@ -2,7 +2,7 @@
 
 #include "core/base/tolerances.h"
 #include "core/base/triangle.h"
-#include "core/contour/wall_keeping.h"
+#include "core/contour/cavity_surface.h"
 #include "core/goals/objective.h"
 #include "core/mesh/components.h"
 #include "core/mesh/connectivity.h"
@@ -346,8 +346,7 @@ std::optional<Capping::Closed> Capping::closed(const Stretched& caps, double far
     // the constraints for ever.
     const double beyond = (kBeyondWall - 1.0) * (1.0 - round / (kRounds + 1.0));
     const bool isThin =
-        !keepWall(clearance, (1.0 + beyond) * task_.wall, result.cavity.faces, moved, rests)
-             .empty();
+        !keepWall(clearance, (1.0 + beyond) * task_.wall, result.cavity.faces, moved).empty();
     if (moved == result.inner) break;
     for (Eigen::Index v = n_; v < moved.rows(); ++v) {
       if (moved.row(v) != result.inner.row(v)) atWall[at(v)] = 1;
