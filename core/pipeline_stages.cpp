@@ -209,9 +209,7 @@ Search searchOffsets(const Preparation& model, const Foundation& foundation, con
     return taskAlong(clearance, goal, model, foundation, options);
   };
   const auto searchFor = [&](CavityTask& task) {
-    return bestCavity(
-        task, [&] { return taskFor(task.goal, kSteepClearance); },
-        bar.within(model.schedule.search, Schedule::kEnd, "Optimization"));
+    return bestCavity(task, bar.within(model.schedule.search, Schedule::kEnd, "Optimization"));
   };
   Search result{taskFor(*model.goal, kSlantedClearance), {}};
   if (when == OffsetSearch::WhereItMayServe)
