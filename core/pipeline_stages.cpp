@@ -16,7 +16,6 @@
 #include "core/model/frame.h"
 #include "core/model/mending.h"
 #include "core/optimum/foot_depth.h"
-#include "core/optimum/volume_bound.h"
 #include "core/overhang/ceiling.h"
 #include "core/overhang/printable_bound.h"
 #include "core/overhang/supporting_fill.h"
@@ -129,18 +128,17 @@ CavityTask taskOf(const Goal& goal, const Preparation& model, const Foundation& 
   return task;
 }
 
-/// The search for a cavity with offsets along directions of at least this clearance.
-CavityTask taskAlong(double wantedClearance, const Goal& goal, const Preparation& model,
-                     const Foundation& foundation, const Options& options) {
+/// The search for an offset surface.
+CavityTask offsetTask(const Goal& goal, const Preparation& model, const Foundation& foundation,
+                      const Options& options) {
   const PosedModel& posed = model.posed;
   const MovingSurface& moving = *foundation.coarse.moving;
   const Points& axis = foundation.coarse.axis;
   OffsetField field =
       posed.open
           ? offsetField(moving.vertices, posed.open->skin,
-                        levelAtRim(moving.vertices, moving.faces, posed.isLid, *posed.open, axis),
-                        wantedClearance)
-          : offsetField(moving.vertices, moving.faces, axis, wantedClearance);
+                        levelAtRim(moving.vertices, moving.faces, posed.isLid, *posed.open, axis))
+          : offsetField(moving.vertices, moving.faces, axis);
   CavityTask task = taskOf(goal, model, foundation, options);
   task.model.inner = boundsKeeping(posed.wall, model, moving, field, options);
   if (moves(options)) task.model.outer = boundsOfOuter(model, field, options);
@@ -168,59 +166,23 @@ bool movesInwards(const Preparation& model, const Options& options) {
 /// From this share of what is possible on it is worth looking for more.
 constexpr double kFar = 0.02;
 
-double gapOf(double measure, const Search& found) {
-  const double before = *inputBody(found.task).measure;
-  return (*found.task.bound->measure - measure) / (*found.task.bound->measure - before);
-}
-
-/// The measure that no offset surface exceeds, if it is certain that this is far from what is
-/// possible: none of them takes more than a certain volume, along whatever directions. Empty: one
-/// may come near, or nothing is known.
-std::optional<double> measureOfDeepest(const Preparation& model, const Foundation& foundation,
-                                       const Options& options, const Search& found) {
-  const Weights& weights = options.weights;
-  if (options.cavityShape != CavityShape::Automatic || moves(options) || model.posed.open ||
-      !foundation.possible || !foundation.possible->bound.measure || weights.smoothness > 0.0) {
-    return std::nullopt;
-  }
-  std::optional<double> most;
-  for (const double clearance : {kSlantedClearance, kSteepClearance}) {
-    const double volume =
-        clearance == kSlantedClearance
-            ? greatestVolume(found.task)
-            : greatestVolume(taskAlong(clearance, *model.goal, model, foundation, options));
-    const std::optional<double> measure =
-        greatestMeasure(*model.goal, foundation.possible->bound, model.solidMoments,
-                        found.task.model.fillings, foundation.possible->cells, volume);
-    if (!measure || !(gapOf(*measure, found) > kFar)) return std::nullopt;
-    most = std::max(most.value_or(*measure), *measure);
-  }
-  return most;
-}
-
-/// Whether it may be left out where it cannot come near to what is possible.
-enum class OffsetSearch { WhereItMayServe, Always };
-
 /// The best offset surface.
 Search searchOffsets(const Preparation& model, const Foundation& foundation, const Options& options,
-                     OffsetSearch when, ProgressBar& bar) {
+                     ProgressBar& bar) {
   bar.show(model.schedule.directions, "Offset directions");
-  const auto taskFor = [&](const Goal& goal, double clearance) {
-    return taskAlong(clearance, goal, model, foundation, options);
+  const auto taskFor = [&](const Goal& goal) {
+    return offsetTask(goal, model, foundation, options);
   };
   const auto searchFor = [&](CavityTask& task) {
     return bestCavity(task, bar.within(model.schedule.search, Schedule::kEnd, "Optimization"));
   };
-  Search result{taskFor(*model.goal, kSlantedClearance), {}};
-  if (when == OffsetSearch::WhereItMayServe)
-    result.offsetsAtMost = measureOfDeepest(model, foundation, options, result);
-  if (result.offsetsAtMost) return result;
+  Search result{taskFor(*model.goal), {}};
   bar.show(model.schedule.search, "Optimization");
   const std::unique_ptr<Goal> instead = model.goal->insteadOfConstraints();
   const bool isOutOfReach = foundation.possible && !foundation.possible->bound.isReachable();
   const std::unique_ptr<Goal> relaxed = isOutOfReach ? nullptr : model.goal->relaxed();
   if (relaxed) {
-    CavityTask task = taskFor(*relaxed, kSlantedClearance);
+    CavityTask task = taskFor(*relaxed);
     result.cavity = searchFor(task);
   }
   const bool isDone = relaxed && keepsConstraints(result.task, result.cavity);
@@ -233,7 +195,7 @@ Search searchOffsets(const Preparation& model, const Foundation& foundation, con
   const bool isSolidEnough = inputBody(result.task).violation <= kFeasibility;
   if (instead && !isSolidEnough &&
       (isOutOfReach || !keepsConstraints(result.task, result.cavity))) {
-    CavityTask task = taskFor(*instead, kSlantedClearance);
+    CavityTask task = taskFor(*instead);
     task.bound.reset(); // of another objective
     task.weights = insteadOfConstraints(task.weights);
     CavityResult other = searchFor(task);
@@ -296,10 +258,6 @@ std::string reasonForBestPossible(const Options& options, const OptimalBound& bo
     return "no offset surface is looked for where ceilings are to carry themselves";
   }
   const auto percent = [](double share) { return toString(std::round(1000.0 * share) / 10.0); };
-  if (found.offsetsAtMost) {
-    return "no offset surface was looked for, for it would leave at least " +
-           percent(gapOf(*found.offsetsAtMost, found)) + " % of what is possible";
-  }
   if (found.cavity.status == CavityStatus::NoRoom) return "the offset surface has no room";
   const bool isFound = found.cavity.status == CavityStatus::Found;
   const Body before = inputBody(found.task);
@@ -554,9 +512,9 @@ void reconsider(const Preparation& model, const Foundation& foundation, const Op
 }
 
 Search bestOfShapes(const Preparation& model, const Foundation& foundation, const Options& options,
-                    OffsetSearch when, ProgressBar& bar) {
+                    ProgressBar& bar) {
   Search result = movesInwards(model, options)
-                      ? searchOffsets(model, foundation, options, when, bar)
+                      ? searchOffsets(model, foundation, options, bar)
                       : Search{taskOf(*model.goal, model, foundation, options), {}};
   result.verdictBefore = makeVerdict(options, model.posed, model.posed.vertices);
   judge(model, options, result);
@@ -569,12 +527,6 @@ Search bestOfShapes(const Preparation& model, const Foundation& foundation, cons
   if (options.cavityShape == CavityShape::Offset && options.overhangAngle > 0.0)
     carryCeilings(model, foundation, options, bar, result);
   return result;
-}
-
-/// Of the goal, which has one.
-double measureOf(const Search& found) {
-  const bool isFound = found.cavity.status == CavityStatus::Found;
-  return *(isFound ? hollowBody(found.task, found.cavity) : inputBody(found.task)).measure;
 }
 
 /// Of an answer that serves the goal.
@@ -652,8 +604,7 @@ Preparation::Preparation(const TriangleMesh& model, const Options& options, Reso
       solidMoments(moments(posed.vertices, posed.faces)),
       goal(makeGoal(options, posed, posed.vertices)),
       mayCopy(resolution == Resolution::Coarse && !moves(options) && !posed.open),
-      isCarrierCoarse(resolution == Resolution::Coarse),
-      schedule(scheduleFor(posed.vertices.rows(), options.basisSize, mayCopy)) {}
+      isCarrierCoarse(resolution == Resolution::Coarse) {}
 
 Preparation prepare(const TriangleMesh& model, const Options& options, ProgressBar& bar,
                     Resolution resolution, const Known& known) {
@@ -742,10 +693,7 @@ std::optional<double> depthOfBetterFoot(const Preparation& model, const Foundati
 
 Search search(const Preparation& model, const Foundation& foundation, const Options& options,
               ProgressBar& bar) {
-  Search first = bestOfShapes(model, foundation, options, OffsetSearch::WhereItMayServe, bar);
-  const bool isCertain = !first.offsetsAtMost || measureOf(first) >= *first.offsetsAtMost;
-  Search result = isCertain ? std::move(first)
-                            : bestOfShapes(model, foundation, options, OffsetSearch::Always, bar);
+  Search result = bestOfShapes(model, foundation, options, bar);
   const bool isHollow =
       result.cavity.status == CavityStatus::Found && result.cavity.inspection.components > 0;
   if (options.drainHoles > 0 && isHollow) {

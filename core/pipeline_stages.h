@@ -122,8 +122,6 @@ std::optional<double> depthOfBetterFoot(const Preparation& model, const Foundati
 struct Search {
   CavityTask task;
   CavityResult cavity;
-  /// That no offset surface exceeds this in the goal's measure; then none was looked for.
-  std::optional<double> offsetsAtMost = {};
   std::string shapeReason = {}; ///< why it has this shape
   /// Of the model, and of the outer surface as it has become.
   std::unique_ptr<Verdict> verdictBefore = {}, verdictAfter = {};

@@ -27,6 +27,9 @@ constexpr int kPatience = 8;
 constexpr int kTrims = 3;
 /// The outer surface starts near where it was: it is to look the same.
 constexpr double kOuterStart = 0.1;
+/// Ends of the cavity go on moving where the objective hardly changes any more.
+constexpr int kMostEvaluations = 200;
+constexpr double kObjectiveTolerance = 1e-6;
 /// Rounds in which a goal that depends on the outer surface follows its motion; then that rests,
 /// and the cavity is fitted to it.
 constexpr int kFollowing = 3;
@@ -88,18 +91,15 @@ Inspection inspectResult(const CavityTask& task, const CavityResult& result,
                  &clearance, task.stored);
 }
 
-/// One search from the bound's cavity, or the middle of the bounds where none is known, to a cavity
-/// that passes inspection, in rounds.
+/// One search from the middle of the bounds to a cavity that passes inspection, in rounds.
 class CavitySearch {
 public:
   /// `optimizes`: if not, the cavity is as large as the wall allows.
   CavitySearch(const CavityTask& task, bool optimizes, const std::function<void(double)>& progress);
 
   CavityResult run();
-  double deepestVolume();
 
 private:
-  Vector startingOffsets() const;
   void beginRound(int round);
   bool closeCavity();
   void optimize();
@@ -135,26 +135,14 @@ CavitySearch::CavitySearch(const CavityTask& task, bool optimizes,
   limits_.solid.resize(static_cast<std::size_t>(positionCount(task)), 0);
   limits_.inner.lower = lipschitzAbove(movingVertices(task), neighbours_,
                                        limits_.inner.lower.cwiseMin(limits_.inner.upper), 1.0);
+  solver_.maxEvaluations = kMostEvaluations;
+  solver_.objectiveTolerance = kObjectiveTolerance;
   Vector outerStart;
   if (limits_.outer)
     outerStart = limits_.outer->lower + kOuterStart * (limits_.outer->upper - limits_.outer->lower);
-  coefficients_ = coefficientsFor(model_, startingOffsets(), outerStart);
+  coefficients_ =
+      coefficientsFor(model_, 0.5 * (limits_.inner.lower + limits_.inner.upper), outerStart);
   result_.outer = task.surface.vertices();
-}
-
-Vector CavitySearch::startingOffsets() const {
-  const OffsetBounds& bounds = limits_.inner;
-  if (!task_.bound) return 0.5 * (bounds.lower + bounds.upper);
-  return boundMapInverse(bounds,
-                         offsetsTowards(*task_.bound, movingVertices(task_),
-                                        task_.model.field.directions, bounds.lower, bounds.upper));
-}
-
-double CavitySearch::deepestVolume() {
-  beginRound(0);
-  const Points deepest =
-      movingVertices(task_) - limits_.inner.lower.asDiagonal() * task_.model.field.directions;
-  return signedVolume(deepest, cavitySurface(deepest, cavityFaces_, corners_, limits_.solid).faces);
 }
 
 CavityResult CavitySearch::run() {
@@ -264,12 +252,6 @@ SearchEffort& SearchEffort::operator+=(const SearchEffort& other) {
 
 CavityResult searchCavity(const CavityTask& task, const std::function<void(double)>& progress) {
   return CavitySearch(task, true, progress).run();
-}
-
-double greatestVolume(const CavityTask& task) {
-  constexpr double kMore = 1.25;
-  const std::function<void(double)> silent;
-  return kMore * CavitySearch(task, false, silent).deepestVolume();
 }
 
 bool leavesRoom(const CavityTask& task) {

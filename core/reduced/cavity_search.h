@@ -87,11 +87,6 @@ Moments outerMoments(const CavityTask& task, const CavityResult& result);
 /// 0…1; may be empty.
 CavityResult searchCavity(const CavityTask& task, const std::function<void(double)>& progress);
 
-/// Volume that no cavity of a search exceeds: a quarter more than that with the least offsets, but
-/// for what has no room between its bounds, for folds of it count less than once. \pre the outer
-/// surface rests and is closed
-double greatestVolume(const CavityTask& task);
-
 /// Whether a cavity with the least offsets passes inspection, without optimising anything, and
 /// takes more than three thousandths of a closed body's volume. Where it does, `searchCavity`
 /// finds one, too.

@@ -62,7 +62,6 @@ void closeIn(const CavityTask& task, const CavityResult& result, const VertexAdj
   const Points& vertices = task.model.surface->vertices;
   const Inspection& found = result.inspection;
   std::vector<char>& solid = limits.solid;
-  const auto isSolid = [&](int v) { return result.cavity.solid[static_cast<std::size_t>(v)] != 0; };
   const auto fill = [&](int v) {
     solid[static_cast<std::size_t>(v)] = 1;
     for (const int w : neighbours[static_cast<std::size_t>(v)])
@@ -70,8 +69,7 @@ void closeIn(const CavityTask& task, const CavityResult& result, const VertexAdj
   };
   OffsetBounds& inner = limits.inner;
   for (const int v : found.crossing) {
-    const IndexRange around = neighbours[static_cast<std::size_t>(v)];
-    if (!isPatient || std::any_of(around.begin(), around.end(), isSolid)) fill(v);
+    if (!isPatient) fill(v);
     inner.upper[v] = std::min(inner.upper[v], kShrink * result.innerOffsets[v]);
   }
   for (const int v : found.thin) {

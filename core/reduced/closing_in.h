@@ -18,8 +18,8 @@ struct SearchLimits {
 
 /// Moves the limits so that what the inspection of `result` found cannot happen again in the same
 /// way: offsets of vertices that cross something shrink, those with too thin a wall get the missing
-/// length, and where a cap crosses something the cavity ends earlier. Without patience all that
-/// failed becomes solid, and a moved outer surface stays there where it was.
+/// length. Without patience all that failed becomes solid, and a moved outer surface stays there
+/// where it was.
 void closeIn(const CavityTask& task, const CavityResult& result, const VertexAdjacency& neighbours,
              bool isPatient, SearchLimits& limits);
 
