@@ -129,9 +129,12 @@ CavitySearch::CavitySearch(const CavityTask& task, bool optimizes,
       neighbours_(vertexAdjacency(movingVertices(task).rows(), movingFaces(task))),
       cavityFaces_(task.open != nullptr ? task.open->cavity : movingFaces(task)),
       corners_(vertexCorners(positionCount(task), cavityFaces_)),
-      model_(task.model), limits_{task.model.inner, task.model.outer,
-                                  tooThin(task.model.field, task.model.inner)},
+      model_(task.model), limits_{task.model.inner,
+                                  task.model.outer,
+                                  tooThin(task.model.field, task.model.inner),
+                                  {}},
       goal_(&task.goal), clearance_(std::make_shared<ClearanceQuery>(task.surface)) {
+  limits_.thinRounds.resize(limits_.solid.size());
   limits_.solid.resize(static_cast<std::size_t>(positionCount(task)), 0);
   limits_.inner.lower = lipschitzAbove(movingVertices(task), neighbours_,
                                        limits_.inner.lower.cwiseMin(limits_.inner.upper), 1.0);

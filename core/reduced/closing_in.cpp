@@ -15,7 +15,8 @@ namespace {
 
 /// A step that was seen to clear most folds in one to three rounds.
 constexpr double kShrink = 0.6;
-/// Correcting a missing wall by a little more needs fewer rounds.
+/// Correcting a missing wall by a little more needs fewer rounds; by twice as much each time that
+/// the same vertex fails, for its offset may lead along the surface.
 constexpr double kOverstep = 1.1;
 /// Of a step along an offset that leads to the side: no more than 1/0.6 times what is missing.
 constexpr double kLeastGain = 0.6;
@@ -42,12 +43,14 @@ Vec3 nearestPoint(const CavityTask& task, const CavityResult& result, int v) {
 }
 
 /// Goes deeper by what is missing of the wall, or less deep where that leads nearer.
-void correctWall(const CavityTask& task, const CavityResult& result, int v, OffsetBounds& bounds) {
+void correctWall(const CavityTask& task, const CavityResult& result, int v, SearchLimits& limits) {
+  OffsetBounds& bounds = limits.inner;
   const Vec3 y = result.inner.row(v).transpose();
   const Vec3 away = (y - nearestPoint(task, result, v)).normalized();
   const double missing = kBeyondWall * task.wall - result.inspection.wall[v];
   const double gain = -away.dot(task.model.field.directions.row(v).transpose());
-  const double step = kOverstep * missing / std::max(std::abs(gain), kLeastGain);
+  const double step = std::ldexp(kOverstep * missing / std::max(std::abs(gain), kLeastGain),
+                                 limits.thinRounds[static_cast<std::size_t>(v)]++);
   if (gain > 0.0) {
     bounds.lower[v] = std::max(bounds.lower[v], result.innerOffsets[v] + step);
   } else {
@@ -74,7 +77,7 @@ void closeIn(const CavityTask& task, const CavityResult& result, const VertexAdj
   }
   for (const int v : found.thin) {
     if (!isPatient) fill(v);
-    correctWall(task, result, v, inner);
+    correctWall(task, result, v, limits);
   }
   inner.lower = lipschitzAbove(vertices, neighbours, inner.lower, kBoundSlope);
   inner.upper = lipschitzBelow(vertices, neighbours, inner.upper, kBoundSlope);

@@ -13,13 +13,14 @@ namespace massprops {
 struct SearchLimits {
   OffsetBounds inner; ///< past each other where there is no room
   std::optional<OffsetBounds> outer;
-  std::vector<char> solid; ///< marks of the cavity's positions, where it has no surface
+  std::vector<char> solid;     ///< marks of the cavity's positions, where it has no surface
+  std::vector<int> thinRounds; ///< how often each vertex had too thin a wall
 };
 
 /// Moves the limits so that what the inspection of `result` found cannot happen again in the same
 /// way: offsets of vertices that cross something shrink, those with too thin a wall get the missing
-/// length. Without patience all that failed becomes solid, and a moved outer surface stays there
-/// where it was.
+/// length, twice as much each time. Without patience all that failed becomes solid, and a moved
+/// outer surface stays there where it was.
 void closeIn(const CavityTask& task, const CavityResult& result, const VertexAdjacency& neighbours,
              bool isPatient, SearchLimits& limits);
 
