@@ -137,7 +137,7 @@ constexpr double kLeastEdge = 0.005;
 
 /// The flow has ended when a step changes the area by less than this share of the first; the steps
 /// after it move next to nothing.
-constexpr double kSettled = 0.06;
+constexpr double kSettled = 0.02;
 
 /// How strongly a step of the flow holds vertices where they are, and how strongly the medial axis
 /// draws them: four and ten times what CGAL takes. With CGAL's, coarse meshes lead to worse
