@@ -107,18 +107,17 @@ CavityTask taskOf(const Goal& goal, const Preparation& model, const Foundation& 
   return task;
 }
 
-/// The search for a cavity with offsets along directions of at least this clearance.
-CavityTask taskAlong(double wantedClearance, const Goal& goal, const Preparation& model,
-                     const Foundation& foundation, const Options& options) {
+/// The search for an offset surface.
+CavityTask offsetTask(const Goal& goal, const Preparation& model, const Foundation& foundation,
+                      const Options& options) {
   const PosedModel& posed = model.posed;
   const MovingSurface& moving = *foundation.coarse.moving;
   const Points& axis = foundation.coarse.axis;
   OffsetField field =
       posed.open
           ? offsetField(moving.vertices, posed.open->skin,
-                        levelAtRim(moving.vertices, moving.faces, posed.isLid, *posed.open, axis),
-                        wantedClearance)
-          : offsetField(moving.vertices, moving.faces, axis, wantedClearance);
+                        levelAtRim(moving.vertices, moving.faces, posed.isLid, *posed.open, axis))
+          : offsetField(moving.vertices, moving.faces, axis);
   CavityTask task = taskOf(goal, model, foundation, options);
   task.model.inner = boundsKeeping(posed.wall, model, moving, field, options);
   if (moves(options)) task.model.outer = boundsOfOuter(model, field, options);
@@ -139,21 +138,19 @@ bool keepsConstraints(const CavityTask& task, const CavityResult& cavity) {
 Search searchOffsets(const Preparation& model, const Foundation& foundation, const Options& options,
                      ProgressBar& bar) {
   bar.show(model.schedule.directions, "Offset directions");
-  const auto taskFor = [&](const Goal& goal, double clearance) {
-    return taskAlong(clearance, goal, model, foundation, options);
+  const auto taskFor = [&](const Goal& goal) {
+    return offsetTask(goal, model, foundation, options);
   };
   const auto searchFor = [&](CavityTask& task) {
-    return bestCavity(
-        task, [&] { return taskFor(task.goal, kSteepClearance); },
-        bar.within(model.schedule.search, Schedule::kEnd, "Optimization"));
+    return bestCavity(task, bar.within(model.schedule.search, Schedule::kEnd, "Optimization"));
   };
-  Search result{taskFor(*model.goal, kSlantedClearance), {}};
+  Search result{taskFor(*model.goal), {}};
   bar.show(model.schedule.search, "Optimization");
   const std::unique_ptr<Goal> instead = model.goal->insteadOfConstraints();
   const bool isOutOfReach = foundation.possible && !foundation.possible->bound.isReachable();
   const std::unique_ptr<Goal> relaxed = isOutOfReach ? nullptr : model.goal->relaxed();
   if (relaxed) {
-    CavityTask task = taskFor(*relaxed, kSlantedClearance);
+    CavityTask task = taskFor(*relaxed);
     result.cavity = searchFor(task);
   }
   const bool isDone = relaxed && keepsConstraints(result.task, result.cavity);
@@ -166,7 +163,7 @@ Search searchOffsets(const Preparation& model, const Foundation& foundation, con
   const bool isSolidEnough = inputBody(result.task).violation <= kFeasibility;
   if (instead && !isSolidEnough &&
       (isOutOfReach || !keepsConstraints(result.task, result.cavity))) {
-    CavityTask task = taskFor(*instead, kSlantedClearance);
+    CavityTask task = taskFor(*instead);
     task.bound.reset(); // of another objective
     task.weights = insteadOfConstraints(task.weights);
     CavityResult other = searchFor(task);
@@ -316,8 +313,7 @@ Preparation::Preparation(const TriangleMesh& model, const Options& options, Reso
       solidMoments(moments(posed.vertices, posed.faces)),
       goal(makeGoal(options, posed, posed.vertices)),
       mayCopy(resolution == Resolution::Coarse && !moves(options) && !posed.open),
-      isCarrierCoarse(resolution == Resolution::Coarse),
-      schedule(scheduleFor(posed.vertices.rows(), options.basisSize, mayCopy)) {}
+      isCarrierCoarse(resolution == Resolution::Coarse) {}
 
 Preparation prepare(const TriangleMesh& model, const Options& options, ProgressBar& bar,
                     Resolution resolution, const Known& known) {

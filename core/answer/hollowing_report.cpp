@@ -504,8 +504,6 @@ Report hollowingReport(const PosedModel& posed, const CavityTask& task, const Ve
   if (posed.open) report.add("openings", posed.open->openings);
   if (hasCavity) report.add("cavity_shape", shapeOf(cavity) + stages.shapeReason);
   if (!cavity.isContour) report.add("solid_vertices", solidVertices(task, cavity));
-  if (hasCavity && cavity.shape == CavityShape::Offset)
-    report.add("pleated_ends", cavity.pleatedEnds);
   addEffort(cavity, stages, report);
   return report;
 }

@@ -469,31 +469,4 @@ OptimalBound withBodyWithin(const AdmissibleCells& opened, OptimalBound bound, c
   return other;
 }
 
-LayeredQuadric quadricWithin(const AdmissibleCells& smaller, const OptimalBound& bound,
-                             const Goal& goal, const Weights& weights, const Moments& solid,
-                             const Fillings& fillings) {
-  OptimalBound finer = bound;
-  const HollowBodies bodies(goal, weights, solid, wholeOf(fillings), smaller);
-  const Vector q = bodies.bestFrom(bound.worth.quadrics.front()).x;
-  finer.violation = largestViolation(goal, take(bodies, q, finer));
-  findNearest(goal, weights, solid, fillings, smaller, finer);
-  return finer.worth;
-}
-
-Vector offsetsTowards(const OptimalBound& bound, const Points& vertices, const Points& directions,
-                      const Vector& lower, const Vector& upper) {
-  constexpr int kSteps = 32;
-  Vector offsets = upper;
-  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
-    for (int step = 0; step <= kSteps && lower[v] < upper[v]; ++step) {
-      const double offset = lower[v] + (upper[v] - lower[v]) * step / kSteps;
-      const Vec3 y = (vertices.row(v) - offset * directions.row(v)).transpose();
-      if (bound.worth.valueAt(y) <= 0.0) continue;
-      offsets[v] = offset;
-      break;
-    }
-  }
-  return offsets;
-}
-
 } // namespace massprops

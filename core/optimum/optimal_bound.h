@@ -61,16 +61,4 @@ OptimalBound optimalBound(const Goal& goal, const Weights& weights, const Moment
 OptimalBound withBodyWithin(const AdmissibleCells& opened, OptimalBound bound, const Goal& goal,
                             const Weights& weights, const Moments& solid, const Fillings& fillings);
 
-/// The quadric of the body within cells smaller than the bound's that is nearest to constraints out
-/// of reach: there much depends on what its border cuts. \pre `worth` has one layer, there are
-/// cells
-LayeredQuadric quadricWithin(const AdmissibleCells& smaller, const OptimalBound& bound,
-                             const Goal& goal, const Weights& weights, const Moments& solid,
-                             const Fillings& fillings);
-
-/// Offsets with which the inner surface comes nearest to that body's cavity: every point goes in
-/// until hollowing is worth it, as far as its bounds allow. n lengths.
-Vector offsetsTowards(const OptimalBound& bound, const Points& vertices, const Points& directions,
-                      const Vector& lower, const Vector& upper);
-
 } // namespace massprops

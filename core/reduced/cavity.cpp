@@ -1,6 +1,7 @@
 #include "core/reduced/cavity.h"
 
 #include "core/base/parallel.h"
+#include "core/mesh/components.h"
 #include "core/mesh/hole_filling.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@ namespace {
 
 /// Fewer connected faces than this, left over from a larger component, make no cavity worth
 /// printing.
-constexpr std::size_t kLeastFaces = 24;
+constexpr Eigen::Index kLeastFaces = 24;
 
 std::size_t at(Eigen::Index i) {
   return static_cast<std::size_t>(i);
@@ -60,42 +61,21 @@ void markIrregular(const Faces& faces, const VertexCorners& corners, std::vector
   }
 }
 
-/// Marks the vertices of pieces that are too small; whole components are not, however coarse.
-void markSmallPieces(const Faces& faces, const VertexCorners& corners, std::vector<char>& solid) {
-  const int* corner = faces.data();
-  std::vector<int> piece(solid.size(), -1);
-  std::vector<std::size_t> faceCount;
-  std::vector<char> isTrimmed;
-  std::vector<Eigen::Index> stack;
-  for (std::size_t seed = 0; seed < solid.size(); ++seed) {
-    if (solid[seed] != 0 || piece[seed] >= 0) continue;
-    char trimmed = 0;
-    stack.assign(1, static_cast<Eigen::Index>(seed));
-    piece[seed] = static_cast<int>(faceCount.size());
-    while (!stack.empty()) {
-      const Eigen::Index v = stack.back();
-      stack.pop_back();
-      for (const int c : corners.at(v)) {
-        const int w = corner[nextHalfEdge(c)];
-        if (solid[at(w)] != 0) {
-          trimmed = 1;
-        } else if (piece[at(w)] < 0) {
-          piece[at(w)] = static_cast<int>(faceCount.size());
-          stack.push_back(w);
-        }
-      }
-    }
-    faceCount.push_back(0);
-    isTrimmed.push_back(trimmed);
-  }
+Faces keptFaces(const Faces& faces, const std::vector<char>& solid) {
+  Faces kept(faces.rows(), 3);
+  Eigen::Index count = 0;
   for (Eigen::Index f = 0; f < faces.rows(); ++f) {
-    if (!touches(faces, f, solid)) ++faceCount[at(piece[at(faces(f, 0))])];
+    if (!touches(faces, f, solid)) kept.row(count++) = faces.row(f);
   }
-  for (std::size_t v = 0; v < solid.size(); ++v) {
-    const bool hasPiece = solid[v] == 0 && piece[v] >= 0;
-    if (hasPiece && isTrimmed[at(piece[v])] != 0 && faceCount[at(piece[v])] < kLeastFaces) {
-      solid[v] = 1;
-    }
+  return kept.topRows(count);
+}
+
+/// Marks the vertices of pieces that are too small; whole components are not, however coarse.
+void markSmallPieces(const Faces& faces, std::vector<char>& solid) {
+  const auto n = static_cast<Eigen::Index>(solid.size());
+  for (const Faces& piece : connectedComponents(n, keptFaces(faces, solid))) {
+    if (piece.rows() >= kLeastFaces || countEdges(n, piece).boundary == 0) continue;
+    for (const int v : piece.reshaped()) solid[at(v)] = 1;
   }
 }
 
@@ -134,10 +114,10 @@ std::vector<std::vector<int>> holes(const Faces& faces, const VertexCorners& cor
   return loops;
 }
 
-/// Triangles that close a hole, three corners each; none when it cannot be closed without making
-/// the surface non-manifold.
-std::vector<int> cap(const Points& vertices, const Faces& faces, const VertexCorners& corners,
-                     const std::vector<char>& solid, const std::vector<int>& loop) {
+/// Triangles that close a hole; none when it cannot be closed without making the surface
+/// non-manifold.
+Faces cap(const Points& vertices, const Faces& faces, const VertexCorners& corners,
+          const std::vector<char>& solid, const std::vector<int>& loop) {
   // The kept faces around its border are all that closing a hole has to know.
   std::vector<Eigen::Index> near;
   for (const int v : loop) {
@@ -147,54 +127,34 @@ std::vector<int> cap(const Points& vertices, const Faces& faces, const VertexCor
   }
   std::sort(near.begin(), near.end());
   near.erase(std::unique(near.begin(), near.end()), near.end());
-  std::vector<int> vertexOf;
-  for (const Eigen::Index f : near) {
-    for (const int v : faces.row(f)) vertexOf.push_back(v);
-  }
-  std::sort(vertexOf.begin(), vertexOf.end());
-  vertexOf.erase(std::unique(vertexOf.begin(), vertexOf.end()), vertexOf.end());
-
+  const Submesh patch = submesh(vertices, faces(near, Eigen::all));
   const auto local = [&](int v) {
-    return static_cast<int>(std::lower_bound(vertexOf.begin(), vertexOf.end(), v) -
-                            vertexOf.begin());
+    const auto place = std::lower_bound(patch.vertexOf.begin(), patch.vertexOf.end(), v);
+    return static_cast<int>(place - patch.vertexOf.begin());
   };
-  TriangleMesh patch{Points(static_cast<Eigen::Index>(vertexOf.size()), 3),
-                     Faces(static_cast<Eigen::Index>(near.size()), 3)};
-  for (std::size_t i = 0; i < vertexOf.size(); ++i) {
-    patch.vertices.row(static_cast<Eigen::Index>(i)) = vertices.row(vertexOf[i]);
-  }
-  for (std::size_t i = 0; i < near.size(); ++i) {
-    patch.faces.row(static_cast<Eigen::Index>(i)) = faces.row(near[i]).unaryExpr(local);
-  }
   std::vector<int> border(loop.size());
   std::transform(loop.begin(), loop.end(), border.begin(), local);
-  const Faces added = holeFilling(patch, border);
-  std::vector<int> triangles(at(added.size()));
-  std::transform(added.data(), added.data() + added.size(), triangles.begin(),
-                 [&](int v) { return vertexOf[at(v)]; });
-  return triangles;
+  return holeFilling(patch.mesh, border).unaryExpr([&](int v) { return patch.vertexOf[at(v)]; });
 }
 
 /// Triangles that close the holes of the kept faces; empty when one cannot be closed: its border is
 /// then marked solid.
-std::optional<std::vector<int>> caps(const Points& vertices, const Faces& faces,
-                                     const VertexCorners& corners, std::vector<char>& solid) {
+std::optional<Faces> caps(const Points& vertices, const Faces& faces, const VertexCorners& corners,
+                          std::vector<char>& solid) {
   const std::vector<std::vector<int>> loops = holes(faces, corners, solid);
-  std::vector<std::vector<int>> triangles(loops.size());
+  std::vector<Faces> parts(loops.size());
   forChunks(static_cast<Eigen::Index>(loops.size()), 1, [&](const Chunk& chunk) {
-    triangles[at(chunk.begin)] = cap(vertices, faces, corners, solid, loops[at(chunk.begin)]);
+    parts[at(chunk.begin)] = cap(vertices, faces, corners, solid, loops[at(chunk.begin)]);
   });
   bool isClosed = true;
-  std::vector<int> all;
   for (std::size_t i = 0; i < loops.size(); ++i) {
-    all.insert(all.end(), triangles[i].begin(), triangles[i].end());
-    if (!triangles[i].empty()) continue;
+    if (parts[i].rows() > 0) continue;
     isClosed = false;
     // Retreat by one ring.
     for (const int v : loops[i]) solid[at(v)] = 1;
   }
   if (!isClosed) return std::nullopt;
-  return all;
+  return joined(parts);
 }
 
 } // namespace
@@ -206,23 +166,11 @@ CavitySurface cavitySurface(const Points& vertices, const Faces& faces,
     if (std::none_of(solid.begin(), solid.end(), [](char mark) { return mark != 0; })) {
       return {faces, faces.rows(), std::move(solid)};
     }
-    markSmallPieces(faces, corners, solid);
-    const std::optional<std::vector<int>> closing = caps(vertices, faces, corners, solid);
+    markSmallPieces(faces, solid);
+    const std::optional<Faces> closing = caps(vertices, faces, corners, solid);
     if (!closing) continue;
-
-    Eigen::Index kept = 0;
-    for (Eigen::Index f = 0; f < faces.rows(); ++f) kept += touches(faces, f, solid) ? 0 : 1;
-    const auto added = static_cast<Eigen::Index>(closing->size() / 3);
-    CavitySurface cavity;
-    cavity.faces.resize(kept + added, 3);
-    Eigen::Index row = 0;
-    for (Eigen::Index f = 0; f < faces.rows(); ++f) {
-      if (!touches(faces, f, solid)) cavity.faces.row(row++) = faces.row(f);
-    }
-    cavity.faces.bottomRows(added) = Eigen::Map<const Faces>(closing->data(), added, 3);
-    cavity.firstCapFace = kept;
-    cavity.solid = std::move(solid);
-    return cavity;
+    const Faces kept = keptFaces(faces, solid);
+    return {joined({kept, *closing}), kept.rows(), std::move(solid)};
   }
 }
 

@@ -58,14 +58,12 @@ struct SearchEffort {
 struct CavityResult {
   CavityStatus status = CavityStatus::NoRoom;
   CavityShape shape = CavityShape::Offset; ///< never Automatic
-  /// Delivered positions in the working frame, of an offset surface a row a vertex of what moves
-  /// and then those of smooth caps, of an open surface's cavity twice as many.
+  /// Delivered positions in the working frame, of an offset surface a row a vertex of what moves,
+  /// of an open surface's cavity twice as many.
   Points inner;
   Points outer;                      ///< of the outer surface, moved or not
   CavitySurface cavity;              ///< over `inner`; no faces: nothing can be hollowed
   Vector innerOffsets, outerOffsets; ///< of an offset surface
-  int pleatedEnds = 0;               ///< of an offset surface: those that are not smooth
-  std::vector<int> pleated;          ///< their vertices
   /// Made of cubes: the rows of `inner` are the cavity's vertices, as it needs them.
   bool isContour = false;
   double edge = 0.0; ///< of the cubes, working length; 0: not known
@@ -83,15 +81,9 @@ Moments outerMoments(const CavityTask& task, const CavityResult& result);
 /// The cavity that serves the goal best among those that pass inspection. Where a cavity crosses
 /// itself or comes too near to the outer surface the bounds close in, and what is left without room
 /// becomes solid; after a bounded number of rounds all that still fails becomes solid, so that
-/// what is returned is clean or empty. Where nothing is left, it starts again with offsets nearer
-/// to the least ones. `progress`: called with the share of the work that is done, 0…1; may be
-/// empty.
+/// what is returned is clean or empty. `progress`: called with the share of the work that is done,
+/// 0…1; may be empty.
 CavityResult searchCavity(const CavityTask& task, const std::function<void(double)>& progress);
-
-/// Volume that no cavity of a search exceeds, nor one with smooth caps (smooth_caps.h): a quarter
-/// more than that with the least offsets, but for what has no room between its bounds, for folds
-/// of it count less than once. \pre the outer surface rests and is closed
-double greatestVolume(const CavityTask& task);
 
 /// Whether a cavity with the least offsets passes inspection, without optimising anything, and
 /// takes more than three thousandths of a closed body's volume. Where it does, `searchCavity`

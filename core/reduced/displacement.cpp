@@ -15,28 +15,17 @@
 namespace massprops {
 namespace {
 
-/// The rows of the vertices of a part.
-template <class Rows>
-Rows rowsOf(const Rows& all, const Submesh& part) {
-  return all(part.vertexOf, Eigen::all);
-}
-
-/// Functions of unit mean square over the vertices of a part that move, orthogonal there: of those
-/// that are given or else of the terms of a quadric, or of a plane. m×r, 0 for those that stay.
+/// The terms of a quadric, or of a plane where moments of inertia do not count, over the vertices
+/// of a part that move: of unit mean square and orthogonal there. m×r, 0 for those that stay.
 RowMatrix functionsOn(const Submesh& part, const DisplacementTask& task) {
   const Points& vertices = part.mesh.vertices;
-  const bool isGiven = task.functions.size() > 0;
-  const Eigen::Index terms = isGiven ? task.functions.cols() : task.goal.usesInertia() ? 10 : 4;
+  const Eigen::Index terms = task.goal.usesInertia() ? 10 : 4;
   RowMatrix values = RowMatrix::Zero(vertices.rows(), terms);
   double count = 0.0;
   for (Eigen::Index i = 0; i < vertices.rows(); ++i) {
     const int v = part.vertexOf[static_cast<std::size_t>(i)];
     if (task.directions.row(v).isZero(0.0)) continue;
-    if (isGiven) {
-      values.row(i) = task.functions.row(v);
-    } else {
-      values.row(i) = monomials(vertices.row(i).transpose()).head(terms).transpose();
-    }
+    values.row(i) = monomials(vertices.row(i).transpose()).head(terms).transpose();
     count += 1.0;
   }
   if (count == 0.0) return {};
@@ -61,70 +50,98 @@ Faces movingFaces(const DisplacementTask& task) {
   return task.faces(moving, Eigen::all);
 }
 
-} // namespace
+constexpr double kUnit = 0.05; // of the farthest: what the solver's variables are 1 for
 
-Displaced displace(const DisplacementTask& task, Points& vertices) {
-  const bool usesInertia = task.goal.usesInertia();
-  constexpr double kUnit = 0.05; // of the farthest: what the solver's variables are 1 for
-  // Of a large cavity often little moves.
-  const Submesh part = submesh(vertices, movingFaces(task));
-  const RowMatrix functions = kUnit * task.farthest * functionsOn(part, task);
-  if (functions.size() == 0) return {};
-  const Points directions = rowsOf(task.directions, part);
-  const Moments atRest = moments(vertices, task.faces, usesInertia) -
-                         moments(part.mesh.vertices, part.mesh.faces, usesInertia);
-  const auto displaced = [&](const Vector& q) {
-    return Points(part.mesh.vertices + (functions * q).asDiagonal() * directions);
-  };
-  const auto put = [&](const Points& moved, Points& whole) {
-    whole(part.vertexOf, Eigen::all) = moved;
-  };
-  const BodyState outer{task.outer, MomentJacobian::Zero(10, functions.cols())};
-  const auto withJacobian = [&](const MomentsWithRates& both) {
-    BodyState state{both.moments, MomentJacobian::Zero(10, functions.cols())};
-    state.jacobian.topRows(both.rates.cols()) = both.rates.transpose() * functions;
-    return state;
-  };
-  const Eigen::Index count = functions.cols();
-  struct Evaluated {
-    std::vector<BodyState> states;
-    double volumeShare;
-    Vector volumeShareGradient;
-  };
-  const auto bodyAt = [&](const Vector& q) {
-    const Points moved = displaced(q);
-    BodyState cavity =
-        withJacobian(momentsWithRates(moved, part.mesh.faces, directions, usesInertia));
-    cavity.mass += atRest;
-    const auto contents = [&](double level) {
-      Points whole = vertices;
-      put(moved, whole);
-      MomentsWithRates below = momentsBelowWithRates(whole, task.faces, task.directions, level);
-      below.rates = rowsOf(below.rates, part);
-      return withJacobian(below);
-    };
-    return Evaluated{bodyStates(task.fillings, outer, cavity, contents),
-                     outer.mass[0] / task.solidVolume - cavity.mass[0] / task.solidVolume,
-                     -cavity.jacobian.row(0).transpose() / task.solidVolume};
-  };
-  std::optional<LevelProblem> levels;
-  if (task.raisesLevel) {
-    const std::vector<BodyState> states = bodyAt(Vector::Zero(count)).states;
-    if (auto conditions = conditionsOfMeasure(task.goal, states.front().mass))
-      levels.emplace(std::move(*conditions), task.weights, states);
-  }
-  const auto evaluateAt = [&](const Vector& q) {
-    const Evaluated body = bodyAt(q.head(count));
-    if (levels)
-      return levels->at(body.states, body.volumeShare, body.volumeShareGradient, q[count]);
-    Evaluation evaluation = evaluateBody(task.goal, task.weights, body.states, body.volumeShare,
-                                         body.volumeShareGradient);
-    if (task.movesLeast) {
+/// The body as its cavity is displaced by q times the functions.
+class DisplacedBody {
+public:
+  DisplacedBody(const DisplacementTask& task, const Points& vertices)
+      : task_(task), vertices_(vertices), usesInertia_(task.goal.usesInertia()),
+        part_(submesh(vertices, movingFaces(task))),
+        functions_(kUnit * task.farthest * functionsOn(part_, task)),
+        directions_(task.directions(part_.vertexOf, Eigen::all)),
+        atRest_(moments(vertices, task.faces, usesInertia_) -
+                moments(part_.mesh.vertices, part_.mesh.faces, usesInertia_)) {}
+
+  Eigen::Index count() const { return functions_.cols(); }
+
+  Points cavityAt(const Vector& q) const { return withPart(partAt(q)); }
+
+  std::vector<BodyState> statesAt(const Vector& q) const { return bodyAt(q).states; }
+
+  /// `q`: with levels their variable is the last.
+  Evaluation at(const Vector& q, const std::optional<LevelProblem>& levels) const {
+    const Body body = bodyAt(q.head(count()));
+    if (levels) return levels->at(body.states, body.share, body.shareGradient, q[count()]);
+    Evaluation evaluation =
+        evaluateBody(task_.goal, task_.weights, body.states, body.share, body.shareGradient);
+    if (task_.movesLeast) {
       evaluation.objective = 0.5 * q.squaredNorm();
       evaluation.objectiveGradient = q;
     }
     return evaluation;
+  }
+
+private:
+  struct Body {
+    std::vector<BodyState> states;
+    double share; ///< of the solid volume
+    Vector shareGradient;
   };
+
+  Points partAt(const Vector& q) const {
+    return part_.mesh.vertices + (functions_ * q).asDiagonal() * directions_;
+  }
+
+  Points withPart(const Points& moved) const {
+    Points whole = vertices_;
+    whole(part_.vertexOf, Eigen::all) = moved;
+    return whole;
+  }
+
+  BodyState withJacobian(const Moments& moments, const RowMatrix& rates) const {
+    BodyState state{moments, MomentJacobian::Zero(10, count())};
+    state.jacobian.topRows(rates.cols()) = rates.transpose() * functions_;
+    return state;
+  }
+
+  Body bodyAt(const Vector& q) const {
+    const Points moved = partAt(q);
+    const MomentsWithRates all =
+        momentsWithRates(moved, part_.mesh.faces, directions_, usesInertia_);
+    const BodyState cavity = withJacobian(all.moments + atRest_, all.rates);
+    const auto contents = [&](double level) {
+      const MomentsWithRates below =
+          momentsBelowWithRates(withPart(moved), task_.faces, task_.directions, level);
+      return withJacobian(below.moments, below.rates(part_.vertexOf, Eigen::all));
+    };
+    const BodyState outer{task_.outer, MomentJacobian::Zero(10, count())};
+    return {bodyStates(task_.fillings, outer, cavity, contents),
+            (outer.mass[0] - cavity.mass[0]) / task_.solidVolume,
+            -cavity.jacobian.row(0).transpose() / task_.solidVolume};
+  }
+
+  const DisplacementTask& task_;
+  const Points vertices_;
+  const bool usesInertia_;
+  const Submesh part_; ///< of a large cavity often little moves
+  const RowMatrix functions_;
+  const Points directions_;
+  const Moments atRest_;
+};
+
+} // namespace
+
+Displaced displace(const DisplacementTask& task, Points& vertices) {
+  const DisplacedBody body(task, vertices);
+  const Eigen::Index count = body.count();
+  if (count == 0) return {};
+  std::optional<LevelProblem> levels;
+  if (task.raisesLevel) {
+    const std::vector<BodyState> states = body.statesAt(Vector::Zero(count));
+    if (auto conditions = conditionsOfMeasure(task.goal, states.front().mass))
+      levels.emplace(std::move(*conditions), task.weights, states);
+  }
   MinimizeOptions options;
   options.feasibility = 0.1 * kFeasibility; // rounding needs the rest
   options.range = 1.0 / kUnit;
@@ -138,12 +155,12 @@ Displaced displace(const DisplacementTask& task, Points& vertices) {
   for (const double below : {0.0, kBelow}) {
     Vector from = Vector::Zero(levels ? count + 1 : count);
     if (levels) from[count] = -below;
-    result = minimize(evaluateAt, from, options);
+    result = minimize([&](const Vector& q) { return body.at(q, levels); }, from, options);
     evaluations += result.evaluations;
     if (!levels || !result.x.head(count).isZero(0.0)) break;
   }
   if (levels && result.x[count] <= 0.0) result.x.setZero(); // no higher than it was
-  put(displaced(result.x.head(count)), vertices);
+  vertices = body.cavityAt(result.x.head(count));
   constexpr double kNearly = 0.99;
   const bool isFarthest = result.x.head(count).cwiseAbs().maxCoeff() >= kNearly * options.range;
   return {evaluations, levels ? 0.0 : result.violation, isFarthest};

@@ -15,9 +15,6 @@ struct DisplacementTask {
   /// Where each vertex goes; 0 for those that stay. n×3
   const Points& directions;
   double farthest; ///< root mean square of the displacements, in the directions' unit
-  /// Whose sums they are, n×r, of any size; empty: a polynomial of degree 2, or 1 where moments of
-  /// inertia do not count.
-  RowMatrix functions = {};
   /// Whether the goal's level is raised itself, kinks and all, where one condition is all that it
   /// asks for: its smooth objective is nearly that only.
   bool raisesLevel = false;
@@ -34,8 +31,9 @@ struct Displaced {
   bool isFarthest = false; ///< some function is as large as it may be: going on from there may help
 };
 
-/// Displaces `vertices` along the directions so that the goal's constraints hold and its objective
-/// is least, or its level highest.
+/// Displaces `vertices` along the directions, by polynomials of degree 2, or 1 where moments of
+/// inertia do not count, so that the goal's constraints hold and its objective is least, or its
+/// level highest.
 /// `vertices`: as they become; unchanged where none can move.
 Displaced displace(const DisplacementTask& task, Points& vertices);
 

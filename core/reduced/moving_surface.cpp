@@ -127,12 +127,4 @@ Coarsening coarsen(const PosedModel& posed, const CoarseningOptions& options,
   return result;
 }
 
-Eigen::Index movingSize(Eigen::Index n, int basisSize) {
-  return std::min(n, carrying(basisSize, kMoving).most);
-}
-
-Eigen::Index carrierSize(Eigen::Index n, int basisSize) {
-  return std::min(n, carrying(basisSize, kCarrier).most);
-}
-
 } // namespace massprops

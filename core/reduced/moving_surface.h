@@ -60,9 +60,4 @@ struct Coarsening {
 Coarsening coarsen(const PosedModel& posed, const CoarseningOptions& options,
                    const std::function<void()>& whenCopied, const std::function<void()>& beside);
 
-/// About how many vertices the two copies of a surface with n vertices have, for foretelling how
-/// long the stages take.
-Eigen::Index movingSize(Eigen::Index n, int basisSize);
-Eigen::Index carrierSize(Eigen::Index n, int basisSize);
-
 } // namespace massprops

@@ -98,20 +98,4 @@ BoundedOffsets boundMap(const OffsetBounds& bounds, const Vector& t) {
   return result;
 }
 
-Vector boundMapInverse(const OffsetBounds& bounds, const Vector& offsets) {
-  constexpr double kSteepest = 0.9;
-  Vector t(offsets.size());
-  for (Eigen::Index i = 0; i < offsets.size(); ++i) {
-    const double centre = 0.5 * (bounds.upper[i] + bounds.lower[i]);
-    const double halfWidth = 0.5 * (bounds.upper[i] - bounds.lower[i]);
-    if (halfWidth <= 0.0) {
-      t[i] = bounds.upper[i];
-      continue;
-    }
-    const double share = std::clamp((offsets[i] - centre) / halfWidth, -kSteepest, kSteepest);
-    t[i] = centre + halfWidth * share / std::sqrt(1.0 - share * share);
-  }
-  return t;
-}
-
 } // namespace massprops

@@ -50,8 +50,4 @@ struct BoundedOffsets {
 /// the middle, scale-free. docs/math.md "Bounds inside the objective".
 BoundedOffsets boundMap(const OffsetBounds& bounds, const Vector& t);
 
-/// t with φ(t) = offsets, those nearer to a bound than a twentieth of the range taken as that far
-/// from it: there φ is almost flat. n entries.
-Vector boundMapInverse(const OffsetBounds& bounds, const Vector& offsets);
-
 } // namespace massprops

@@ -92,8 +92,7 @@ Points smoothedOverSurface(const Points& values, const SparseMatrix& L, const Ve
   return solver.solve(mass.asDiagonal() * values);
 }
 
-OffsetField offsetField(const Points& vertices, const Faces& faces, const Points& axis,
-                        double wantedClearance) {
+OffsetField offsetField(const Points& vertices, const Faces& faces, const Points& axis) {
   const Points normals = unitFaceNormals(vertices, faces);
   const VertexCorners corners = vertexCorners(vertices.rows(), faces);
   OffsetField field;
@@ -110,11 +109,11 @@ OffsetField offsetField(const Points& vertices, const Faces& faces, const Points
       const Vec3 outward = (vertices.row(v) - axis.row(v)).transpose();
       Vec3 direction = outward.stableNormalized();
       double clearance = clearanceOf(direction, fan, normals);
-      if (!(clearance >= wantedClearance)) {
+      if (!(clearance >= kWantedClearance)) {
         const Vec3 target = mostNormalDirection(fan, normals);
         const double attainable = clearanceOf(target, fan, normals);
         direction =
-            turnedIntoCone(direction, target, std::min(wantedClearance, attainable), fan, normals);
+            turnedIntoCone(direction, target, std::min(kWantedClearance, attainable), fan, normals);
         clearance = clearanceOf(direction, fan, normals);
       }
       field.directions.row(v) = direction.transpose();

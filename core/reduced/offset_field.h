@@ -23,15 +23,13 @@ struct OffsetField {
 /// A direction counts as inside of its vertex's cone when n_f·d is at least this much for all its
 /// faces. Slanted ones keep near to the skeleton; steep ones hollow bumps and the ends of limbs
 /// out, where slanted offsets leave walls that are too thick.
-constexpr double kSlantedClearance = 0.3;
-constexpr double kSteepClearance = 0.6;
+constexpr double kWantedClearance = 0.4;
 
 /// Makes a skeleton's correspondence that is smooth over the surface fit for offsetting
 /// (docs/math.md "Offset directions"): directions outside of the cone of the faces around their
 /// vertex are turned into it, and the reach ends half-way through the body and varies no faster
 /// than the surface does. `axis`: n×3, see `smoothedOverSurface`.
-OffsetField offsetField(const Points& vertices, const Faces& faces, const Points& axis,
-                        double wantedClearance = kSlantedClearance);
+OffsetField offsetField(const Points& vertices, const Faces& faces, const Points& axis);
 
 /// The values spread over the surface, (M + t²L) s' = M s. `values`: n×3; `length` t > 0: same unit
 /// as the vertices.
