@@ -2,12 +2,19 @@
 # built loads on machines without them.
 option(MASSPROPS_LINK_STATICALLY
        "Link NLopt, GMP and MPFR in; builds them from Debian's sources at first" OFF)
+set(_static ${PROJECT_SOURCE_DIR}/build/static-libraries)
 if(NOT MASSPROPS_LINK_STATICALLY)
+  # What this tree linked in before is the system's again.
+  foreach(_variable IN ITEMS GMP_LIBRARIES GMPXX_LIBRARIES MPFR_LIBRARIES GMP_LIBRARY_RELEASE GMP_LIBRARY_DEBUG)
+    string(FIND "${${_variable}}" "${_static}" _place)
+    if(_place EQUAL 0)
+      unset(${_variable} CACHE)
+    endif()
+  endforeach()
   return()
 endif()
 
 # Beside what compiles: nothing but the linker waits for them, and much of it is done on one core.
-set(_static ${PROJECT_SOURCE_DIR}/build/static-libraries)
 set(_libraries "")
 foreach(library IN ITEMS gmp gmpxx mpfr nlopt)
   list(APPEND _libraries ${_static}/lib/lib${library}.a)

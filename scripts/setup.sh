@@ -3,16 +3,19 @@
 # missing, gets the headers of the installed MeshLab, configures and builds build/release. What is
 # done already is skipped.
 #
-# usage: scripts/setup.sh [--thorough] [target ...]
-#   all targets when none is named; --thorough: what the thorough tests need, too
+# usage: scripts/setup.sh [--package | --thorough] [target ...]
+#   all targets when none is named; --package: NLopt, GMP and MPFR are linked in, as what is handed on has
+#   them; --thorough: that, and what the thorough tests need
 set -eu
 cd "$(dirname "$0")/.."
 
+static=OFF
 thorough=OFF
-if [ "${1:-}" = --thorough ]; then
-  thorough=ON
-  shift
-fi
+case ${1:-} in
+  --package) static=ON ;;
+  --thorough) static=ON thorough=ON ;;
+esac
+[ "$static" = OFF ] || shift
 
 packages="
   meshlab dpkg-dev file make m4 man-db
@@ -54,8 +57,8 @@ fi
 
 scripts/fetch_meshlab_source.sh build/meshlab-source >/dev/null
 
-cmake --preset release -DMASSPROPS_WERROR=ON -DMASSPROPS_LINK_STATICALLY=ON -DMASSPROPS_BUILD_PYTHON=ON \
-  -DMASSPROPS_TEST_THOROUGHLY="$thorough" \
+cmake --preset release -DMASSPROPS_WERROR=ON -DMASSPROPS_LINK_STATICALLY="$static" -DMASSPROPS_BUILD_PYTHON=ON \
+  -DMASSPROPS_JOIN_SOURCES=ON -DMASSPROPS_TEST_THOROUGHLY="$thorough" \
   >build/configure.log 2>&1 || {
   cat build/configure.log >&2
   exit 1

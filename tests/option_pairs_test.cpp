@@ -1,6 +1,7 @@
 // Every two wishes that touch each other: they work together, or are refused with a sentence.
 #include "core/base/option_pairs.h"
 #include "core/pipeline.h"
+#include "large_test.h"
 #include "shapes.h"
 
 #include <gtest/gtest.h>
@@ -103,6 +104,7 @@ std::string lower(std::string text) {
 }
 
 TEST(OptionPairs, WorkOrAreRefusedWithASentence) {
+  LARGE_TEST();
   for (std::size_t i = 0; i < wishes().size(); ++i) {
     for (std::size_t j = i + 1; j < wishes().size(); ++j) {
       const Wish& a = wishes()[i];

@@ -2,6 +2,7 @@
 #include "core/pipeline.h"
 
 #include "judge/checks.h"
+#include "large_test.h"
 #include "samples.h"
 
 #include <gtest/gtest.h>
@@ -105,6 +106,7 @@ INSTANTIATE_TEST_SUITE_P(Samples, EverySample,
 
 TEST_P(EverySample, FailsAsASolidAndSucceedsHollowWhereItCan) {
   const Sample& sample = GetParam();
+  if (sampleMesh(sample.name).vertices.rows() > 4000) LARGE_TEST();
   const Result& result = runOf(sample).result;
   for (const std::string& verdict : verdictsOf(sample.goal)) {
     EXPECT_FALSE(std::get<bool>(result.report.at(verdict + "before")));
@@ -137,6 +139,7 @@ TEST_P(EverySample, KeepsTheDefaultWallOfOnePercent) {
 }
 
 TEST(Samples, TheTopSpinsWithAMovedOuterSurfaceWhateverThatWeighs) {
+  LARGE_TEST();
   const TriangleMesh top = sampleMesh("tilted_ellipsoid_top");
   Options options;
   options.goal = GoalKind::Spin;

@@ -1,6 +1,7 @@
 // The number of threads shows in no result.
 #include "core/pipeline.h"
 
+#include "large_test.h"
 #include "shapes.h"
 #include "thread_count.h"
 
@@ -10,6 +11,7 @@ namespace massprops::testing {
 namespace {
 
 TEST(Threads, DoNotChangeASingleBitOfTheCavity) {
+  LARGE_TEST();
   // Large enough for two decimated copies.
   const TriangleMesh mesh = transformed(blob(38), someRotation());
   Options options;

@@ -17,10 +17,15 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 DECLARED = re.compile(r"(?!using namespace|namespace [\w: ]*\{)[a-zA-Z].*?([\w:~]+)(?=\(| = |;| \{| : |\[)")
 
 
+def is_joined(source, file):
+    """Whether CMake compiles `source` as a part of `file`."""
+    return "/Unity/" in file and f'"{source}"' in pathlib.Path(file).read_text()
+
+
 def compiler_flags(build, source):
     """What `source` means by: no names of files, no precompiled headers, warnings, optimisation."""
     commands = json.loads((build / "compile_commands.json").read_text())
-    entry = next(e for e in commands if e["file"] == str(source))
+    entry = next(e for e in commands if e["file"] == str(source) or is_joined(source, e["file"]))
     flags, words = [], iter(shlex.split(entry["command"])[1:])
     for word in words:
         if word in ("-o", "-c", "-include"):

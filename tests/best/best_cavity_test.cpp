@@ -3,6 +3,7 @@
 #include "core/pipeline.h"
 #include "core/query/self_intersection.h"
 #include "judge/checks.h"
+#include "large_test.h"
 #include "shapes.h"
 
 #include <gtest/gtest.h>
@@ -63,6 +64,7 @@ std::string messageOf(const Report& report) {
 }
 
 TEST(BestCavity, IsSaidToServeNoBetterWhereASmallRoomDoesNot) {
+  LARGE_TEST();
   // A room in the cube alone, and nothing that is hollow so low makes it stand better.
   constexpr double kWall = 0.05;
   const TriangleMesh model = sheetWithCube(6.0, 2.4 * kWall, 3.3 * kWall);
@@ -89,6 +91,7 @@ TEST(BestCavity, IsNotSaidToBeAllThatFitsWhereAnOffsetSurfaceDoes) {
 }
 
 TEST(BestCavity, HasALargestWallInASmallRoomToo) {
+  LARGE_TEST();
   // Neither the cube nor the sheet has room for the first one.
   constexpr double kCube = 0.165;
   const TriangleMesh model = sheetWithCube(8.0, 0.12, kCube);

@@ -9,6 +9,7 @@
 #include "core/query/self_intersection.h"
 #include "judge/checks.h"
 #include "judge/guarantee.h"
+#include "large_test.h"
 #include "shapes.h"
 
 #include <gtest/gtest.h>
@@ -141,6 +142,7 @@ struct Body {
 class RoundedEndsOf : public ::testing::TestWithParam<Body> {};
 
 TEST_P(RoundedEndsOf, KeepTheWallAndTheConstraints) {
+  if (GetParam().goal != GoalKind::Float) LARGE_TEST();
   const TriangleMesh body = polycube(GetParam().cubes, 5);
   Options options;
   options.goal = GetParam().goal;

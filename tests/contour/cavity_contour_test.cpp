@@ -9,6 +9,7 @@
 #include "core/query/point_in_mesh.h"
 #include "core/query/self_intersection.h"
 #include "core/query/surface_distance.h"
+#include "large_test.h"
 #include "property/cases.h"
 #include "shapes.h"
 
@@ -54,6 +55,7 @@ TEST(CavityContour, OfABoxIsTheSmallerBoxInFewTriangles) {
 }
 
 TEST(CavityContour, FillsAlmostAllOfWhatABallLeaves) {
+  LARGE_TEST();
   const TriangleMesh outer = sphere(30);
   const TriangleTree tree(outer.vertices, outer.faces);
   const double wall = 0.05;
@@ -67,6 +69,7 @@ TEST(CavityContour, FillsAlmostAllOfWhatABallLeaves) {
 }
 
 TEST(CavityContour, HasNoRoomsOfAFewWallsBesideALargeOne) {
+  LARGE_TEST();
   const double wall = 0.05;
   // Its room is as wide as 1.8 walls.
   const TriangleMesh small = scaled(sphere(12), 1.9 * wall);
@@ -82,6 +85,7 @@ TEST(CavityContour, HasNoRoomsOfAFewWallsBesideALargeOne) {
 }
 
 TEST(CavityContour, LeavesCubesAroundPointsSolid) {
+  LARGE_TEST();
   const TriangleMesh outer = sphere(30);
   const TriangleTree tree(outer.vertices, outer.faces);
   const double wall = 0.05;
@@ -106,6 +110,7 @@ TEST(CavityContour, LeavesCubesAroundPointsSolid) {
 }
 
 TEST(CavityContour, HasNoMoreTrianglesThanAnybodyWantsWhereTheyCostLittle) {
+  LARGE_TEST();
   const TriangleMesh outer = sphere(60);
   const TriangleTree tree(outer.vertices, outer.faces);
   constexpr double kWall = 0.02;
@@ -121,6 +126,7 @@ TEST(CavityContour, HasNoMoreTrianglesThanAnybodyWantsWhereTheyCostLittle) {
 }
 
 TEST(CavityContour, HasMoreTrianglesWhereTheyAreWorthIt) {
+  LARGE_TEST();
   const TriangleMesh outer = sphere(60);
   const TriangleTree tree(outer.vertices, outer.faces);
   constexpr double kWall = 0.02;
@@ -141,6 +147,7 @@ TEST(CavityContour, HasMoreTrianglesWhereTheyAreWorthIt) {
 }
 
 TEST(CavityContour, LeavesOutChannelsNarrowerThanAWall) {
+  LARGE_TEST();
   // Two rooms with a passage between them that is 0.6 walls wide, and one of 1.6 walls.
   const double wall = 0.1;
   for (const double width : {0.6, 1.6}) {
@@ -173,6 +180,7 @@ TEST(CavityContour, LeavesOutChannelsNarrowerThanAWall) {
 }
 
 TEST(CavityContour, KeepsItsPromisesForAnyQuadric) {
+  LARGE_TEST();
   std::mt19937 random(11);
   std::normal_distribution<double> normal;
   const TriangleMesh outer = figure(5);
@@ -193,6 +201,7 @@ TEST(CavityContour, KeepsItsPromisesForAnyQuadric) {
 }
 
 TEST(CavityContour, HasAStepBetweenLayers) {
+  LARGE_TEST();
   const TriangleMesh outer = box({1.0, 1.0, 1.0}, 3);
   const TriangleTree tree(outer.vertices, outer.faces);
   const double wall = 0.05;
@@ -217,6 +226,7 @@ TEST(CavityContour, HasAStepBetweenLayers) {
 
 // In rooms about as wide as cubes the way to the border may lead through the border opposite.
 TEST(CavityContour, LosesLittleWhereVerticesCannotGoToTheBorder) {
+  LARGE_TEST();
   const PropertyCase bowl = makeCase(7, 21);
   TriangleMesh outer = bowl.body;
   const double diagonal =

@@ -7,6 +7,7 @@
 #include "core/mesh/connectivity.h"
 #include "core/query/self_intersection.h"
 #include "core/query/surface_distance.h"
+#include "large_test.h"
 #include "shapes.h"
 #include "thread_count.h"
 
@@ -100,6 +101,7 @@ TEST(DualContour, OfABallCutByAnEllipsoidHasTheVolumeBetween) {
 }
 
 TEST(DualContour, IsFreeOfCrossingsHoweverCoarse) {
+  LARGE_TEST();
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
   const TriangleMesh outer = figure(4);

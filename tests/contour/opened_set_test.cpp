@@ -3,6 +3,7 @@
 
 #include "core/base/angles.h"
 #include "core/base/triangle.h"
+#include "large_test.h"
 #include "shapes.h"
 
 #include <gtest/gtest.h>
@@ -11,6 +12,7 @@ namespace massprops::testing {
 namespace {
 
 TEST(OpenedSet, LosesACollarThinnerThanAWall) {
+  LARGE_TEST();
   const double wall = 0.05;
   for (const double room : {0.6, 1.6}) {
     // A cylinder of radius 0.4 and height 1, around it a disc of radius 1; `room` walls of the disc
@@ -58,6 +60,7 @@ TEST(OpenedSet, IsEmptyWhereNoBallFits) {
 
 // A disc that tapers to its rim: rooms end where both walls and the ball's reach meet.
 TEST(OpenedSet, IsAboutAsLargeInCellsOfAnySize) {
+  LARGE_TEST();
   const double wall = 0.05;
   const Mat3 turn = Eigen::AngleAxisd(0.6, Vec3(3, 1, 2).normalized()).toRotationMatrix();
   const TriangleMesh outer =

@@ -4,6 +4,7 @@
 #include "core/contour/opening.h"
 #include "core/mesh/components.h"
 #include "core/mesh/signed_volume.h"
+#include "large_test.h"
 #include "shapes.h"
 
 #include <gtest/gtest.h>
@@ -218,6 +219,7 @@ TEST(CavityContour, OfAPlateHardlyWiderThanThreeWallsIsASheet) {
 // There is room only where the rim of a pan meets its floor: from far away cutting planes find no
 // place there.
 TEST(CavityContour, OfAThinPanIsARing) {
+  LARGE_TEST();
   const double wall = 0.014;
   const double rim = 0.03;
   const double floor = 0.04;

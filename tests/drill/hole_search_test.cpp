@@ -4,6 +4,7 @@
 #include "core/drill/cutting.h"
 #include "core/mesh/signed_volume.h"
 
+#include "large_test.h"
 #include "shapes.h"
 
 #include <gtest/gtest.h>
@@ -102,6 +103,7 @@ TEST(HolesFor, EveryLegThatWouldStayFullHasOneOfItsOwn) {
 }
 
 TEST(HolesFor, RandomLumpsDrainInRandomPoses) {
+  LARGE_TEST();
   Random random(11);
   int drilledLumps = 0;
   for (int trial = 0; trial < 6; ++trial) {

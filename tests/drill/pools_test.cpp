@@ -4,6 +4,7 @@
 #include "core/mesh/signed_volume.h"
 #include "core/query/point_in_mesh.h"
 
+#include "large_test.h"
 #include "shapes.h"
 
 #include <gtest/gtest.h>
@@ -167,6 +168,7 @@ TEST(StandingPools, GoRoundWhatHangsFromTheCeiling) {
 }
 
 TEST(StandingPools, AgreeWithWaterInCubes) {
+  LARGE_TEST();
   // Lumps with several basins, in poses of no symmetry.
   Random random(5);
   for (int trial = 0; trial < 4; ++trial) {

@@ -8,6 +8,7 @@
 #include "core/model/solid.h"
 #include "core/pipeline.h"
 #include "goals/goal_checks.h"
+#include "large_test.h"
 #include "samples.h"
 #include "shapes.h"
 #include "translated_moments.h"
@@ -112,6 +113,7 @@ std::string complaint(GoalKind goal) {
 }
 
 TEST(EveryVerdict, NamesTheViolatedConstraint) {
+  LARGE_TEST();
   const PosedModel posed = makePosedModel(makeSolid(pillar()), {});
   const Moments body = bodyAt({0.4, 0.3, 0.4}, 10.0);
   for (const GoalEntry& entry : goalRegistry()) {
@@ -132,6 +134,7 @@ TEST(EveryVerdict, NamesTheViolatedConstraint) {
 }
 
 TEST(EveryVerdict, NamesWhatIsMissedWhereAllConstraintsHold) {
+  LARGE_TEST();
   // Roll upright: in how many faces a box rests.
   const TriangleMesh cube = transformed(box({1, 1, 1}, 1), Mat3::Identity(), {0, 0, 0.5});
   const auto rolls = makeRollUprightVerdict(square(1.0), cube.vertices);
@@ -157,6 +160,7 @@ TEST(EveryVerdict, NamesWhatIsMissedWhereAllConstraintsHold) {
 }
 
 TEST(EveryVerdict, IsInTheMessageAlsoWhereAllConstraintsHold) {
+  LARGE_TEST();
   Options options;
   options.goal = GoalKind::RollUpright;
   const Report report = optimizeMassProperties(pillar(), options).report;
@@ -198,6 +202,7 @@ TriangleMesh prism(const std::vector<Vec2>& outline, double height, int layers) 
 }
 
 TEST(Stand, DoesNotLoseTheSharpCornersOfAFootWithAFinelyTessellatedArc) {
+  LARGE_TEST();
   // A foot of 100 × 60 with one corner rounded: with the arc thinned out by number, the hull's
   // other three corners would be lost, and the centre of mass be beyond what is left.
   for (const int segments : {20, 200, 1000}) {

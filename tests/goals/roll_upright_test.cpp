@@ -5,6 +5,7 @@
 #include "core/physics/rolling_metacentres.h"
 #include "core/pipeline.h"
 #include "goals/goal_checks.h"
+#include "large_test.h"
 #include "samples.h"
 
 #include <gtest/gtest.h>
@@ -177,6 +178,7 @@ Report rolled(const TriangleMesh& model, double wall) {
 }
 
 TEST(RollUpright, SaysWhetherAnyCavityCould) {
+  LARGE_TEST();
   // A box has six resting faces whatever is in it.
   const Report box6 =
       rolled(transformed(roundedBox({10, 12, 15}, 1, 6, 2), Mat3::Identity(), {0, 0, 7.5}), 0.5);
@@ -188,6 +190,7 @@ TEST(RollUpright, SaysWhetherAnyCavityCould) {
 }
 
 TEST(RollUpright, OfTheSampleIsReachedWithAThinWallAndProvenImpossibleWithAThickOne) {
+  LARGE_TEST();
   const TriangleMesh model = sampleMesh("roly_poly");
   const double diagonal =
       (model.vertices.colwise().maxCoeff() - model.vertices.colwise().minCoeff()).norm();

@@ -14,6 +14,10 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 SAMPLES = ROOT / "sample_meshes"
 FILTER = "Mass Property Optimization"
 SCRIPTS = {"box_on_corner": "stand.mlx", "tilted_ellipsoid_top": "spin.mlx"}
+# How samples are printed, where that is not how they are used.
+BUILD_AXIS = {"hanging_fish": 2}
+# All samples everywhere, or of what takes long only those that differ in kind.
+IS_THOROUGH = os.environ.get("MASSPROPS_TEST_THOROUGHLY", "") == "ON"
 
 
 def script_of(sample):
@@ -151,12 +155,21 @@ def layers_of(project):
             for mesh in xml.fromstring(text).iter("MLMesh")]
 
 
-def keep_delivered(sample, log, inner, moved_outer=None):
-    """Leaves what the filter delivered in the folder that other tests read it from, if there is one."""
+def delivered_folder():
+    """Where what the filter delivered is left for other tests, or None."""
     if "MASSPROPS_DELIVERED" not in os.environ:
-        return
+        return None
     folder = pathlib.Path(os.environ["MASSPROPS_DELIVERED"])
     folder.mkdir(exist_ok=True)
+    return folder
+
+
+def keep_delivered(sample, log, project, inner, moved_outer=None):
+    """Leaves what the filter delivered in the folder that other tests read it from, if there is one."""
+    folder = delivered_folder()
+    if folder is None:
+        return
+    shutil.copy(project, folder / f"{sample}.3mf")
     (folder / f"{sample}_report.txt").write_text(log)
     shutil.copy(inner, folder / f"{sample}_inner.ply")
     outer = folder / f"{sample}_outer.ply"

@@ -6,8 +6,8 @@ import unittest
 import numpy as np
 
 import measure
-from host import (SAMPLES, HostTest, ROOT, bounds_a_volume, keep_delivered, layers_of, meshlabserver,
-                  read_ply, report_in, script_of)
+from host import (BUILD_AXIS, SAMPLES, HostTest, ROOT, bounds_a_volume, changed_script, keep_delivered,
+                  layers_of, meshlabserver, read_ply, report_in, script_of)
 import xml.etree.ElementTree as xml
 
 
@@ -17,7 +17,9 @@ def parameter(script, name):
 
 class SamplesTest(HostTest):
     def check(self, sample):
-        script = script_of(sample)
+        project = self.folder / f"{sample}.3mf"
+        script = changed_script(script_of(sample), self.folder / "print.mlx", print_file=project,
+                                build_axis=BUILD_AXIS.get(sample, 0))
         mesh = SAMPLES / f"{sample}.ply"
         inner_file = self.folder / "inner.ply"
         moves = parameter(script, "outer_upper_bound") > 0
@@ -32,7 +34,7 @@ class SamplesTest(HostTest):
             status, log = meshlabserver("-i", mesh, "-o", inner_file, "-l", "x", "-s", script)
             outer_file = mesh
         self.assertEqual(status, 0, log)
-        keep_delivered(sample, log, inner_file, outer_file if moves else None)
+        keep_delivered(sample, log, project, inner_file, outer_file if moves else None)
         report = report_in(log)
         solid, outer, inner = read_ply(mesh), read_ply(outer_file), read_ply(inner_file)
 

@@ -4,6 +4,7 @@
 #include "core/base/triangle.h"
 #include "core/physics/moments.h"
 #include "judge/checks.h"
+#include "large_test.h"
 #include "shapes.h"
 
 #include <gtest/gtest.h>
@@ -39,6 +40,7 @@ std::vector<TriangleMesh> models() {
 }
 
 TEST(Refined, HasTheSameShapeWithoutLongEdges) {
+  LARGE_TEST();
   for (const TriangleMesh& mesh : models()) {
     const double before = longestEdge(mesh.vertices, mesh.faces);
     for (const double share : {1.0, 0.4, 0.1}) {

@@ -2,6 +2,7 @@
 // was mended.
 #include "core/pipeline.h"
 #include "judge/checks.h"
+#include "large_test.h"
 #include "shapes.h"
 
 #include <gtest/gtest.h>
@@ -118,6 +119,7 @@ TEST(MendedInput, MayFaceInwards) {
 }
 
 TEST(MendedInput, MayBeVerySmallOrVeryLarge) {
+  LARGE_TEST();
   for (const double size : {1e-6, 1e6}) {
     const TriangleMesh model = scaled(leaningPillar(), size);
     const Result result = optimizeMassProperties(model, {});
@@ -142,6 +144,7 @@ TEST(MendedInput, MayBeFarFromTheOrigin) {
 }
 
 TEST(MendedInput, MayBeSeveralBodiesThatAreOptimisedAsOne) {
+  LARGE_TEST();
   // Each of two pillars that lean towards each other falls over alone; together they stand.
   const TriangleMesh one = leaningPillar();
   const TriangleMesh other =
@@ -158,6 +161,7 @@ TEST(MendedInput, MayBeSeveralBodiesThatAreOptimisedAsOne) {
 }
 
 TEST(MendedInput, MayHaveACavityWhichTheNewOneReplaces) {
+  LARGE_TEST();
   const TriangleMesh body = leaningPillar();
   const TriangleMesh hole = shifted(scaled(sphere(4), 0.2), {0.1, 0, 0.3});
   for (const bool turned : {false, true}) {
@@ -190,6 +194,7 @@ TEST(MendedInput, MayHaveAllOfThisTogether) {
 }
 
 TEST(LargestWall, WorksWhereTheWallAskedForDoesNot) {
+  LARGE_TEST();
   Options options;
   options.goal = GoalKind::Mass; // which any cavity serves
   const TriangleMesh plate = box({1, 1, 0.1}, 10);
@@ -207,6 +212,7 @@ TEST(LargestWall, WorksWhereTheWallAskedForDoesNot) {
 }
 
 TEST(Determinism, HoldsOnOneCoreAndOnAll) {
+  LARGE_TEST();
   cpu_set_t all;
   ASSERT_EQ(sched_getaffinity(0, sizeof all, &all), 0);
   const TriangleMesh model = figure(2);

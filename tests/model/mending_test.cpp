@@ -17,6 +17,7 @@
 #include "core/model/wrapping.h"
 #include "core/pipeline.h"
 #include "judge/checks.h"
+#include "large_test.h"
 #include "shapes.h"
 
 #include <gtest/gtest.h>
@@ -412,6 +413,7 @@ TEST(UnitedBodies, MayLieOnEachOther) {
 }
 
 TEST(Wrapped, KeepsTheVolumeOfASoup) {
+  LARGE_TEST();
   const TriangleMesh body = blob(12);
   TriangleMesh soup = unwelded(body);
   Eigen::Index kept = 0;
@@ -428,6 +430,7 @@ TEST(Wrapped, KeepsTheVolumeOfASoup) {
 }
 
 TEST(Wrapped, TakesFacesWithoutArea) {
+  LARGE_TEST();
   TriangleMesh body = box({2, 2, 2}, 4);
   // Along an edge and across it, some of them where the wrap goes.
   const Eigen::Index faces = body.faces.rows();
@@ -440,6 +443,7 @@ TEST(Wrapped, TakesFacesWithoutArea) {
 }
 
 TEST(Wrapped, TakesABallThatFollowsFromTheHoles) {
+  LARGE_TEST();
   // One that a fine ball would get through.
   const TriangleMesh body = box({2, 2, 2}, 16);
   const TriangleMesh open = withoutFaces(body, [](const Vec3& p) {
@@ -455,6 +459,7 @@ TEST(Wrapped, TakesABallThatFollowsFromTheHoles) {
 }
 
 TEST(Wrapped, SaysWhereTheModelIsAnother) {
+  LARGE_TEST();
   // A slot that no ball gets into takes 9 % of the box.
   TriangleMesh slotted =
       joined(box({2, 2, 2}, 4), reversed(shifted(box({1.8, 0.4, 1.0}, 4), {0, 0, 0.2})));
@@ -505,6 +510,7 @@ TEST(Mending, KeepsTheOpeningsOfAShell) {
 }
 
 TEST(Mending, ClosesAnOpeningWhereNoShellCanBeMade) {
+  LARGE_TEST();
   // A rod stands out of the bowl.
   const TriangleMesh ball = sphere(10);
   const TriangleMesh bowl = withoutFaces(ball, [](const Vec3& p) { return p.z() > 0.5; });
@@ -529,6 +535,7 @@ TriangleMesh brokenPillar() {
 }
 
 TEST(Mending, DeliversTheMendedSurfaceWithItsCavity) {
+  LARGE_TEST();
   const TriangleMesh model = brokenPillar();
   const Result result = optimizeMassProperties(model, {});
   EXPECT_EQ(std::get<std::string>(result.report.at("repairs")), "1 hole closed");
@@ -551,6 +558,7 @@ TEST(Mending, IsSwitchedOffByItsOption) {
 }
 
 TEST(Mending, GivesTheSameBytesAgain) {
+  LARGE_TEST();
   const TriangleMesh two = joined(blob(8), shifted(blob(7), {0.9, 0.3, 0.1}));
   const std::optional<Solid> one = mended(two, taskFor(two));
   const std::optional<Solid> other = mended(two, taskFor(two));
@@ -780,6 +788,8 @@ private:
 class BrokenAtRandom : public ::testing::TestWithParam<int> {};
 
 TEST_P(BrokenAtRandom, IsMendedToTheSolidThatItWas) {
+  // Of the kinds of damage three are small.
+  if (GetParam() != 0 && GetParam() != 2 && GetParam() != 3) LARGE_TEST();
   // Bars of which the sides lie in one plane but for rounding, and soups, may have to be wrapped,
   // which takes seconds.
   constexpr int kBars = 5;

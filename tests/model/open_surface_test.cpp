@@ -10,6 +10,7 @@
 #include "core/reduced/offset_problem.h"
 
 #include "judge/checks.h"
+#include "large_test.h"
 #include "shapes.h"
 
 #include <gtest/gtest.h>
@@ -388,6 +389,7 @@ TEST(OpenSurface, ASolidPartIsNoOpening) {
 }
 
 TEST(OpenSurface, IsTheSameForTheTurnedSurfaceAndFarAway) {
+  LARGE_TEST();
   Options options;
   options.innerLowerBound = 1.0;
   const TriangleMesh vase = leaningVase();

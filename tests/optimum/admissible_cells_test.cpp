@@ -2,6 +2,7 @@
 #include "core/optimum/admissible_cells.h"
 
 #include "core/physics/moments.h"
+#include "large_test.h"
 #include "shapes.h"
 
 #include <gtest/gtest.h>
@@ -43,6 +44,7 @@ TEST(AdmissibleCells, LeaveOutWhatIsOutsideWhereTheWallIsThinnerThanACell) {
 }
 
 TEST(AdmissibleCells, AreSmallerWhereRoomsAreNarrow) {
+  LARGE_TEST();
   const double tube = 0.06;
   const double wall = 0.045;
   const TriangleMesh outer = torus(1.0, tube, 192, 96);

@@ -10,6 +10,7 @@
 #include "core/model/solid.h"
 #include "core/optimum/optimal_bound.h"
 #include "core/physics/moments.h"
+#include "large_test.h"
 #include "samples.h"
 #include "shapes.h"
 
@@ -104,6 +105,7 @@ TEST_F(Proof, IsFoundWhereTheBestFailsByAFifthOfADegree) {
 }
 
 TEST_F(Proof, IsNotFoundForWhatABodyReaches) {
+  LARGE_TEST();
   EXPECT_FALSE(prove(best() - 0.01));
 }
 
@@ -113,6 +115,7 @@ TEST_F(Proof, BoundsTheBestBodyCloselyByDuality) {
 }
 
 TEST_F(Proof, OfALevelLiesHardlyAboveTheBest) {
+  LARGE_TEST();
   const double ofSolid = std::atan(levelReached(conditions_, solid_)) * kDegrees;
   const double gain = best() - ofSolid;
   for (const auto& [cubes, share] : {std::pair(300000, 0.02), std::pair(1000000, 0.005)}) {
@@ -132,6 +135,7 @@ HalfSpaces halfSpace(const Vec3& normal, double limit) {
 }
 
 TEST(Certificate, IsOnlyFoundForHalfSpacesThatHoldAllCentres) {
+  LARGE_TEST();
   const TriangleMesh cube = standingCube();
   const TriangleTree surface(cube.vertices, cube.faces);
   const Moments solid = moments(cube.vertices, cube.faces);
@@ -240,6 +244,7 @@ TEST(LevelBound, CountsEveryLevelOfTheContents) {
 }
 
 TEST(Certificate, OfEveryLevelExcludesWhatEmptyAndFullAllow) {
+  LARGE_TEST();
   const TwoArms scene;
   const LevelBound ends = greatestLevel(scene.conditions, scene.solid, scene.ends, scene.cells);
   const LevelBound every =
@@ -267,6 +272,7 @@ TEST(Certificate, OfEveryLevelExcludesWhatEmptyAndFullAllow) {
 }
 
 TEST(Certificate, IsOnlyFoundForMassesBelowTheLeast) {
+  LARGE_TEST();
   const TriangleMesh cube = standingCube();
   const TriangleTree surface(cube.vertices, cube.faces);
   const Moments solid = moments(cube.vertices, cube.faces);

@@ -11,6 +11,7 @@
 #include "core/query/point_in_mesh.h"
 #include "core/query/self_intersection.h"
 #include "core/query/triangle_tree.h"
+#include "large_test.h"
 #include "samples.h"
 #include "shapes.h"
 
@@ -396,6 +397,7 @@ struct MissedGoal {
 class BodyThatComesNearest : public ::testing::TestWithParam<MissedGoal> {};
 
 TEST_P(BodyThatComesNearest, IsNotFartherThanTheDeliveredOneInWhatIsTold) {
+  LARGE_TEST();
   const MissedGoal& missed = GetParam();
   Options options;
   options.goal = missed.goal;
@@ -427,6 +429,7 @@ INSTANTIATE_TEST_SUITE_P(
         MissedGoal{"bath_duck", GoalKind::Hang, CavityShape::BestPossible, "off the plumb line"}));
 
 TEST(OptimalBound, IsTheLeastOfAllForSpinAndYoYoWithinAPerCent) {
+  LARGE_TEST();
   for (const char* sample : {"tilted_ellipsoid_top", "uneven_yo_yo", "roly_poly", "game_piece"}) {
     const TriangleMesh model = sampleMesh(sample);
     for (const GoalKind kind : {GoalKind::Spin, GoalKind::YoYo}) {

@@ -3,6 +3,7 @@
 
 #include "core/base/angles.h"
 #include "core/query/point_in_mesh.h"
+#include "large_test.h"
 #include "shapes.h"
 
 #include <gtest/gtest.h>
@@ -68,6 +69,7 @@ TriangleMesh bend(int n) {
 }
 
 TEST(PositivePartBound, IsAboveTheVolumeWhateverTheEffort) {
+  LARGE_TEST();
   struct Case {
     const char* name;
     TriangleMesh mesh;
@@ -149,6 +151,7 @@ double leastSum(const Vec3& u, double t, const TriangleTree& surface, double wal
 }
 
 TEST(PositivePartBounds, AreThoseOfEachAloneWhateverWasAskedBefore) {
+  LARGE_TEST();
   const double wall = 0.03;
   for (const TriangleMesh& shape : {bend(3), blob(8)}) {
     const TriangleMesh mesh = transformed(shape, someRotation());

@@ -3,6 +3,7 @@
 #include "core/query/point_in_mesh.h"
 #include "core/query/triangle_tree.h"
 #include "judge/layers.h"
+#include "large_test.h"
 #include "samples.h"
 #include "shapes.h"
 
@@ -45,6 +46,7 @@ void expectCarried(const TriangleMesh& model, Options options, double largestGap
 }
 
 TEST(Printable, BoxWeighsHardlyMoreThanOneWithAFlatCeiling) {
+  LARGE_TEST();
   Options options;
   options.goal = GoalKind::Mass;
   options.innerLowerBound = 1.2;
@@ -52,10 +54,12 @@ TEST(Printable, BoxWeighsHardlyMoreThanOneWithAFlatCeiling) {
 }
 
 TEST(Printable, DinosaurStands) {
+  LARGE_TEST();
   expectCarried(sampleMesh("toy_dinosaur"), {}, 0.35);
 }
 
 TEST(Printable, DogStandsOnItsLegs) {
+  LARGE_TEST();
   expectCarried(sampleMesh("toy_dog"), {}, 0.4);
 }
 
@@ -84,6 +88,7 @@ TEST(Printable, IsPartOfTheOffsetSurfacesCavity) {
 }
 
 TEST(Printable, WeighsWhatIsAskedForWithAHeavyFilling) {
+  LARGE_TEST();
   Options options;
   options.goal = GoalKind::Mass;
   options.fillDensity = 5.0;
@@ -97,6 +102,7 @@ TEST(Printable, WeighsWhatIsAskedForWithAHeavyFilling) {
 }
 
 TEST(Printable, CeilingIsThatOfTheBuildAxis) {
+  LARGE_TEST();
   // A long room, printed upright, has a small ceiling: less has to be filled than lying.
   Options options;
   options.goal = GoalKind::Mass;
