@@ -88,19 +88,4 @@ Faces holeFilling(const TriangleMesh& patch, const std::vector<int>& border) {
   return faces;
 }
 
-TriangleMesh refinedFilling(const TriangleMesh& patch, Eigen::Index first) {
-  auto mesh = surfaceMesh(patch.vertices, patch.faces);
-  const auto count = static_cast<Eigen::Index>(mesh.number_of_faces());
-  if (count < patch.faces.rows()) return {};
-  std::vector<Mesh::Face_index> filling;
-  for (Eigen::Index f = first; f < count; ++f)
-    filling.emplace_back(static_cast<Mesh::size_type>(f));
-  std::vector<Mesh::Face_index> addedFaces;
-  std::vector<Mesh::Vertex_index> addedVertices;
-  Processing::refine(mesh, filling, std::back_inserter(addedFaces),
-                     std::back_inserter(addedVertices));
-  TriangleMesh refined = triangleMesh(mesh);
-  return {std::move(refined.vertices), refined.faces.bottomRows(refined.faces.rows() - first)};
-}
-
 } // namespace massprops

@@ -19,9 +19,4 @@ TriangleMesh withOpeningsFilled(const TriangleMesh& open);
 /// missing.
 Faces holeFilling(const TriangleMesh& patch, const std::vector<int>& border);
 
-/// What fills a hole, divided until its triangles are about as large as those around it. `patch`:
-/// these, and from row `first` on those in the hole. The vertices of the patch come first and
-/// unchanged, the faces are those in the hole; none where the patch is no manifold. [Lie03]
-TriangleMesh refinedFilling(const TriangleMesh& patch, Eigen::Index first);
-
 } // namespace massprops
