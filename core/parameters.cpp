@@ -127,12 +127,13 @@ Rows generalRows() {
       choice("goal", "Goal", &Options::goal, goalNames(), goalHelp()),
       choice("up_axis", "Up axis", &Options::upAxis, {"+Z", "+Y", "+X", "-Z", "-Y", "-X"},
              "Axis of the scene that points up when the print is used."),
-      choice("cavity_shape", "Cavity", &Options::cavityShape,
-             {"Automatic", "Offset surface", "Best possible"},
-             "Offset surface: the outer surface moved inwards. Best possible: all that the wall "
-             "leaves on one side of the best plane or quadric. Automatic: the offset surface, and "
-             "the best possible one where that misses the goal, leaves more than 2 % of what is "
-             "possible or has ends that are not smooth."),
+      choice(
+          "cavity_shape", "Cavity", &Options::cavityShape,
+          {"Automatic", "Offset surface", "Best possible"},
+          "Offset surface: the outer surface moved inwards. Best possible: all that the wall "
+          "leaves on one side of the best plane or quadric. Automatic: the best possible one of a "
+          "closed surface that stays; the offset surface where the surface is open or the outer "
+          "one moves."),
       startingAt(0.01, length("inner_lower_bound", "Minimum wall", &Options::innerLowerBound,
                               "Least distance of the cavity from the outer surface, in model units "
                               "(read as mm) or percent of the bounding-box diagonal. Parts too "

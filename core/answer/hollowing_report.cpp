@@ -173,23 +173,17 @@ void addDrainage(const PosedModel& posed, const Verdict& verdict, const Body& pl
 }
 
 /// Why there is no room, and what there would be room without, before what is said of the wall.
-std::string whatLeavesNoRoom(const CavityTask& task, const Options& options) {
+std::string whatLeavesNoRoom(const CavityTask& task, CavityShape shape, const Options& options) {
   if (task.open != nullptr) return "there is no room for an open shell with this wall: ";
   const bool isAngleGiven = options.overhangAngle > 0.0;
-  // An offset surface is looked for before its ceilings are filled.
-  const bool isOffset = options.cavityShape == CavityShape::Offset;
-  const bool countsAngle = isAngleGiven && !isOffset;
   const std::string nothing = "nothing can be hollowed at this wall";
-  // They may be an offset surface's, which was not looked for.
-  const bool isOpened = countsAngle || options.cavityShape == CavityShape::BestPossible;
-  const std::string apart = isOpened ? ", channels narrower than the wall apart" : "";
+  const std::string apart =
+      shape == CavityShape::BestPossible ? ", channels narrower than the wall apart" : "";
   if (task.surface.keepsOut()) {
-    return nothing + (countsAngle ? ", solid depth and overhang angle" : " and solid depth") +
+    return nothing + (isAngleGiven ? ", solid depth and overhang angle" : " and solid depth") +
            apart + ": select fewer faces, or lower solid_depth" +
-           (countsAngle ? " or overhang_angle" : "") + "; without these" +
-           (isAngleGiven && isOffset ? " and overhang_angle, " : ", ");
+           (isAngleGiven ? " or overhang_angle" : "") + "; without these, ";
   }
-  if (isAngleGiven && isOffset) return nothing + ", whatever overhang_angle is; without it, ";
   return nothing + (isAngleGiven
                         ? " and overhang angle" + apart + ": lower overhang_angle; without it, "
                         : apart + ": ");
@@ -210,7 +204,7 @@ std::string message(const CavityTask& task, const Verdicts& verdicts, const Cavi
   const std::string bySolid =
       " by the solid model" + (isSolved ? "" : notExactly + ", where " + missed);
   if (cavity.status == CavityStatus::NoRoom) {
-    return sentence + bySolid + "; " + whatLeavesNoRoom(task, options) +
+    return sentence + bySolid + "; " + whatLeavesNoRoom(task, cavity.shape, options) +
            (largestWall > 0.0
                 ? "lower inner_lower_bound to " + toString(largestWall) + " or less."
                 : "lower inner_lower_bound, and refine the model with Remeshing > Isotropic "
