@@ -58,7 +58,7 @@ fi
 scripts/fetch_meshlab_source.sh build/meshlab-source >/dev/null
 
 cmake --preset release -DMASSPROPS_WERROR=ON -DMASSPROPS_LINK_STATICALLY="$static" -DMASSPROPS_BUILD_PYTHON=ON \
-  -DMASSPROPS_JOIN_SOURCES=ON -DMASSPROPS_TEST_THOROUGHLY="$thorough" \
+  -DMASSPROPS_TEST_THOROUGHLY="$thorough" \
   >build/configure.log 2>&1 || {
   cat build/configure.log >&2
   exit 1
