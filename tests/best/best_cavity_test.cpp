@@ -3,6 +3,7 @@
 #include "cells.h"
 #include "core/base/angles.h"
 #include "core/goals/mass.h"
+#include "core/mesh/connectivity.h"
 #include "core/mesh/signed_volume.h"
 #include "core/pipeline.h"
 #include "core/query/self_intersection.h"
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <random>
 #include <string>
 #include <variant>
 
@@ -108,6 +110,50 @@ TEST(BestCavity, HasALargestWallInASmallRoomToo) {
   EXPECT_LE(wall, kCube / 3.0);
   EXPECT_GT(wall, 0.8 * kCube / 3.0);
   EXPECT_GT(std::get<int>(bestReport(model, GoalKind::Mass, wall).at("cavity_triangles")), 0);
+}
+
+// Whatever the quadric, what is found passes inspection.
+TEST(BestCavity, KeepsItsPromisesForAnyQuadric) {
+  LARGE_TEST();
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal;
+  const TriangleMesh outer = figure(5);
+  const TriangleTree tree(outer.vertices, outer.faces);
+  const double wall = 0.01 * (tree.upper() - tree.lower()).norm();
+  const FeasibleSet set{tree, wall, wall};
+  const FeasibleRegion region = feasibleRegion(set, edgeFor(set));
+  const Moments solid = moments(outer.vertices, outer.faces);
+  const std::unique_ptr<Goal> goal = makeMassGoal(solid[0], std::nullopt, Weights{});
+  CavityTask task{tree, *goal, {}};
+  task.model.surface = std::make_shared<const MovingSurface>();
+  task.model.fillings = {{}};
+  task.model.solidMoments = solid;
+  task.inputMoments = solid;
+  task.wall = wall;
+  task.bound.emplace();
+  int found = 0;
+  for (int i = 0; i < 12; ++i) {
+    Moments quadric;
+    for (double& term : quadric) term = normal(random);
+    quadric.tail<6>() *= 2.0;
+    task.bound->worth = LayeredQuadric::ofOneLayer(quadric);
+    const CavityResult cavity = bestPossibleCavity(task, set, region);
+    if (cavity.status != CavityStatus::Found) continue;
+    ++found;
+    const EdgeCounts edges = countEdges(cavity.inner.rows(), cavity.cavity.faces);
+    EXPECT_EQ(edges.boundary + edges.nonManifold + edges.incoherent, 0U);
+    EXPECT_TRUE(selfIntersectingFaces(cavity.inner, cavity.cavity.faces).empty());
+    EXPECT_GE(leastDistance(outer, {cavity.inner, cavity.cavity.faces}), wall);
+    // As far as triangles resolve it, it is where the quadric is positive.
+    const AdmissibleCells cells = admissibleCells(region, Admissible::Reached, 1e6);
+    double positive = 0.0;
+    for (Eigen::Index c = 0; c < cells.rows(); ++c) {
+      const Moments cell = cells.row(c).transpose();
+      if (quadric.dot(cell) > 0.0) positive += cell[0];
+    }
+    EXPECT_NEAR(signedVolume(cavity.inner, cavity.cavity.faces), positive, 0.03 * positive);
+  }
+  EXPECT_GE(found, 10);
 }
 
 /// A ball that is to weigh what it does with a cavity of this volume.
