@@ -55,7 +55,7 @@ double CornerSamples::value() const {
 
 BorderLattice::BorderLattice(const FeasibleSet& set, const FeasibleRegion& region,
                              const std::optional<QuadricCut>& cut)
-    : region_(region), cut_(cut) {
+    : region_(region), cut_(cut), probe_(set) {
   std::vector<char> isInside(region.corners.size());
   for (std::size_t c = 0; c < isInside.size(); ++c) {
     const RegionCorner& corner = region.corners[c];
@@ -65,13 +65,12 @@ BorderLattice::BorderLattice(const FeasibleSet& set, const FeasibleRegion& regio
   for (const std::array<int, 8>& cube : region.border) {
     const auto inside =
         std::count_if(cube.begin(), cube.end(), [&](int c) { return isInside[at(c)] != 0; });
-    if (inside != 0 && inside != 8) addCube(region.placeOf(cube[0]));
+    if (inside != 0 && inside != 8) addCube(region.placeOf(cube[0]), Unknown::Asked);
   }
   if (cut) {
     for (const WholeCube& cube : region.whole) addCutCubes(cube);
   }
-  RegionProbe probe(set);
-  addMissing(probe);
+  addMissing();
   std::vector<int> all(cubes_.size());
   std::iota(all.begin(), all.end(), 0);
   tame(std::move(all));
@@ -98,27 +97,29 @@ int BorderLattice::cubeAt(const Place& place) const {
   return cubeNumbers_.find(place, [&](int i) { return placeOf(cubes_[at(i)][0]); });
 }
 
-int BorderLattice::addCorner(const Place& place) {
+int BorderLattice::addCorner(const Place& place, Unknown unknown) {
   const auto placeOfCorner = [&](int i) { return placeOf(i); };
   const int known = cornerNumbers_.find(place, placeOfCorner);
   if (known >= 0) return known;
   cornerNumbers_.add(place, placeOfCorner);
-  LatticeCorner fresh{{}, isCutInside(region_.positionOf(place)), false, region_.cornerAt(place)};
+  const Vec3 x = region_.positionOf(place);
+  LatticeCorner fresh{{}, isCutInside(x), false, region_.cornerAt(place)};
   for (int k = 0; k < 3; ++k) fresh.place[at(k)] = static_cast<std::int16_t>(place[k]);
   if (fresh.sample >= 0) {
-    const RegionCorner& known_ = region_.corners[at(fresh.sample)];
-    fresh.isInside =
-        fresh.isInside && known_.least(region_.edge).value > kLeastValue * region_.edge;
+    const double value = region_.corners[at(fresh.sample)].least(region_.edge).value;
+    fresh.isInside = fresh.isInside && value > kLeastValue * region_.edge;
+  } else if (unknown == Unknown::Asked) {
+    fresh.isInside = fresh.isInside && probe_.isBehindWall(x);
   }
   corners_.push_back(fresh);
   return static_cast<int>(corners_.size()) - 1;
 }
 
-int BorderLattice::addCube(const Place& place) {
+int BorderLattice::addCube(const Place& place, Unknown unknown) {
   const int known = cubeAt(place);
   if (known >= 0) return known;
   std::array<int, 8> cube{};
-  for (int i = 0; i < 8; ++i) cube[at(i)] = addCorner(place + cornerStep(i));
+  for (int i = 0; i < 8; ++i) cube[at(i)] = addCorner(place + cornerStep(i), unknown);
   cubeNumbers_.add(place, [&](int i) { return placeOf(cubes_[at(i)][0]); });
   cubes_.push_back(cube);
   return static_cast<int>(cubes_.size()) - 1;
@@ -145,12 +146,12 @@ void BorderLattice::addCutCubes(const WholeCube& cube) {
   for (int i = 0; i < 8; ++i) {
     if (isCutInside(region_.positionOf(cube.place + cornerStep(i)))) ++inside;
   }
-  if (inside != 0 && inside != 8) addCube(cube.place);
+  if (inside != 0 && inside != 8) addCube(cube.place, Unknown::Inside);
 }
 
 /// Beyond sides with corners on both sides of the border: what a ball reaches is found from each
 /// corner by itself, so that cubes next to each other may not agree.
-void BorderLattice::addMissing(RegionProbe& probe) {
+void BorderLattice::addMissing() {
   constexpr std::array<unsigned, 3> kLowSide{0x55, 0x33, 0x0f};
   for (int cube = 0; cube < static_cast<int>(cubes_.size()); ++cube) {
     const unsigned inside = cornersInside(cube);
@@ -160,13 +161,7 @@ void BorderLattice::addMissing(RegionProbe& probe) {
       for (const int step : {-1, 1}) {
         const unsigned side = step < 0 ? kLowSide[at(axis)] : ~kLowSide[at(axis)] & 255U;
         if ((inside & side) == 0 || (inside & side) == side) continue;
-        const auto known = static_cast<int>(corners_.size());
-        addCube(place + step * Place::Unit(axis));
-        for (int c = known; c < static_cast<int>(corners_.size()); ++c) {
-          LatticeCorner& fresh = corners_[at(c)];
-          if (fresh.sample < 0 && fresh.isInside)
-            fresh.isInside = probe.isBehindWall(positionOf(c));
-        }
+        addCube(place + step * Place::Unit(axis), Unknown::Asked);
       }
     }
   }
@@ -180,7 +175,8 @@ void BorderLattice::tame(std::vector<int> wild) {
     wild.pop_back();
     if (cutOnce()[cornersInside(cube)]) continue;
     const auto valueInside = [&](int c) {
-      return corner(c).isInside ? samplesAt(c).value() : kInfinity;
+      constexpr double kMost = std::numeric_limits<double>::max(); // well behind the walls
+      return corner(c).isInside ? std::min(samplesAt(c).value(), kMost) : kInfinity;
     };
     const std::array<int, 8>& corners = cubes_[at(cube)];
     const int least = *std::min_element(corners.begin(), corners.end(), [&](int a, int b) {
@@ -188,7 +184,7 @@ void BorderLattice::tame(std::vector<int> wild) {
     });
     corners_[at(least)].isInside = false;
     const Place place = placeOf(least);
-    for (int i = 0; i < 8; ++i) wild.push_back(addCube(place - cornerStep(i)));
+    for (int i = 0; i < 8; ++i) wild.push_back(addCube(place - cornerStep(i), Unknown::Asked));
   }
 }
 
@@ -197,11 +193,12 @@ void BorderLattice::takeOut(const std::vector<Vec3>& points) {
   for (const Vec3& x : points) {
     const Place place = ((x - region_.origin) / region_.edge).array().floor().cast<int>().matrix();
     for (int i = 0; i < 8; ++i) {
-      const int c = addCorner(place + cornerStep(i));
+      const int c = addCorner(place + cornerStep(i), Unknown::Asked);
       if (!corner(c).isInside) continue;
       corners_[at(c)].isInside = false;
       corners_[at(c)].isTakenOut = true;
-      for (int j = 0; j < 8; ++j) around.push_back(addCube(placeOf(c) - cornerStep(j)));
+      for (int j = 0; j < 8; ++j)
+        around.push_back(addCube(placeOf(c) - cornerStep(j), Unknown::Asked));
     }
   }
   tame(std::move(around));

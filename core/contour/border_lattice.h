@@ -54,10 +54,13 @@ public:
   CornerSamples samplesAt(int c) const;
 
 private:
-  int addCube(const Place& place);
-  int addCorner(const Place& place);
+  /// Whether a corner that the region has no sample of lies well behind the walls, or may lie
+  /// anywhere.
+  enum class Unknown { Inside, Asked };
+  int addCube(const Place& place, Unknown unknown);
+  int addCorner(const Place& place, Unknown unknown);
   void addCutCubes(const WholeCube& cube);
-  void addMissing(RegionProbe& probe);
+  void addMissing();
   void tame(std::vector<int> wild);
   bool isCutInside(const Vec3& x) const;
 
@@ -66,6 +69,7 @@ private:
   std::vector<LatticeCorner> corners_;
   std::vector<std::array<int, 8>> cubes_;
   PlaceNumbers cornerNumbers_, cubeNumbers_;
+  RegionProbe probe_;
 };
 
 } // namespace massprops
