@@ -1179,7 +1179,8 @@ TEST(Pipeline, RefusesAbsurdParametersByName) {
   const std::vector<std::pair<Options, std::string>> absurd = {
       {with([](Options& o) { o.basisSize = 0; }), "basis_k"},
       {with([](Options& o) { o.basisSize = -3; }), "basis_k"},
-      {with([](Options& o) { o.basisSize = 20000; }), "basis_k"},
+      {with([](Options& o) { o.cavityShape = CavityShape::Offset, o.basisSize = 20000; }),
+       "basis_k"},
       {with([](Options& o) { o.radiusX = -1.0, o.radiusY = 1.0; }), "radius_x"},
       {with([](Options& o) { o.radiusX = 1.0; }), "radius_y"},
       {with([](Options& o) { o.innerLowerBound = -0.1; }), "inner_lower_bound"},
