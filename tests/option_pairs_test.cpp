@@ -71,7 +71,7 @@ const std::vector<Wish>& wishes() {
          o.drainHoles = 1;
          o.drainDiameter = 2.0;
        }},
-      {"offset surface", [](Options& o) { o.cavityShape = CavityShape::Offset; }},
+      {"cavity_shape", [](Options& o) { o.cavityShape = CavityShape::Offset; }},
       {"overhang_angle", [](Options& o) { o.overhangAngle = 45.0; }},
   };
   return all;
@@ -94,6 +94,8 @@ const std::vector<std::pair<std::string, std::string>>& refused() {
       {"surface", "overhang_angle"},
       {"outer_upper_bound", "overhang_angle"},
       {"cavity_infill", "overhang_angle"},
+      {"outer_upper_bound", "best possible cavity"},
+      {"cavity_shape", "overhang_angle"},
   };
   return pairs;
 }

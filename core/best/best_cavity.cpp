@@ -70,6 +70,14 @@ bool isCut(const QuadricCut& cut, const TriangleTree& surface) {
   return sideOfCut(cut, 0.5 * (low + high), 0.5 * (high - low).norm()) != Side::Positive;
 }
 
+/// Whether the region holds a cavity when nothing is cut off.
+bool hasRoom(const FeasibleSet& set, const FeasibleRegion& region) {
+  const std::optional<QuadricCut> all;
+  Contour contour = dualContour(BorderLattice(set, region, all));
+  removeSmallComponents(set.ball, contour);
+  return contour.mesh.faces.rows() > 0;
+}
+
 /// Corners of the faces that do not pass, where the contour had them.
 std::vector<Vec3> faultyPlaces(const Inspection& inspection, const Points& raw) {
   std::vector<Vec3> places;
@@ -201,6 +209,8 @@ CavityResult bestPossibleCavity(const CavityTask& task, const FeasibleSet& set,
   };
   const FeasibleSet behind{set.surface, wallBeforeRounding(task), set.ball};
   CavityResult result = inspectedCavity(task, behind, BorderLattice(set, region, cut), adjust);
+  if (result.status != CavityStatus::Found && !hasRoom(set, region))
+    return none(CavityStatus::NoRoom, "the wall leaves no room");
   if (result.status == CavityStatus::Found &&
       !servesBetter(task, hollowBody(task, result), inputBody(task)))
     result.status = CavityStatus::NoGain;

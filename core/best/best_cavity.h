@@ -10,8 +10,9 @@ namespace massprops {
 
 /// The part of the region on the positive side of the bound's quadric: its surface, adjusted so
 /// that the body of these triangles keeps the constraints. Passed inspection, as with
-/// `searchCavity`; status NoGain: the solid body serves the goal at least as well, or what there is
-/// cannot be resolved. The outer surface rests. \pre there is a bound, the surface is closed
+/// `searchCavity`; status NoRoom: the ball reaches nothing; NoGain: the solid body serves the goal
+/// at least as well, or what there is cannot be resolved. The outer surface rests. \pre there is a
+/// bound, the surface is closed
 CavityResult bestPossibleCavity(const CavityTask& task, const FeasibleSet& set,
                                 const FeasibleRegion& region);
 

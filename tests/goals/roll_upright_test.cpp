@@ -1,6 +1,7 @@
 // Roll upright: what the objective promises, and what no cavity can change.
 #include "core/goals/roll_upright.h"
 
+#include "cells.h"
 #include "core/optimum/achievable_centres.h"
 #include "core/physics/rolling_metacentres.h"
 #include "core/pipeline.h"
@@ -136,7 +137,7 @@ TEST(RollUprightGoal, KnowsWhenNoCentreOfMassCan) {
 TEST(AchievableCentres, HoldThoseOfAllHalfSpacesThatAreHollow) {
   const TriangleMesh cube = transformed(box({1, 1, 1}, 4), Mat3::Identity(), {0, 0, 0.5});
   const Moments solid = momentsOf(cube);
-  const AdmissibleCells cells = admissibleCells({cube.vertices, cube.faces}, 0.05);
+  const AdmissibleCells cells = cellsBehind({cube.vertices, cube.faces}, 0.05);
   for (const double filling : {0.0, 0.4, 3.0}) {
     const HalfSpaces centres = achievableCentres(solid, filling, cells);
     Random random(31);
@@ -165,7 +166,7 @@ TEST(AchievableCentres, OfABoxReachDownToThatOfTheBestSlab) {
     lowest = std::min(lowest, (0.5 - 0.405 * (0.9025 - h * h)) / (1 - 0.81 * (0.95 - h)));
   }
   const HalfSpaces centres =
-      achievableCentres(momentsOf(cube), 0.0, admissibleCells({cube.vertices, cube.faces}, 0.05));
+      achievableCentres(momentsOf(cube), 0.0, cellsBehind({cube.vertices, cube.faces}, 0.05));
   EXPECT_FALSE(centres.contain(Vec3(0, 0, lowest - 4e-3)));
   EXPECT_TRUE(centres.contain(Vec3(0, 0, lowest)));
 }

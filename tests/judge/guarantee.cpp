@@ -693,10 +693,6 @@ void checkSurface(const PropertyCase& c, const Result& result, const TriangleMes
   found.require(triangles == static_cast<int>(inner.faces.rows()),
                 "the report counts other triangles than ", inner.faces.rows());
   const auto& shape = std::get<std::string>(result.report.at("cavity_shape"));
-  const auto& reason = std::get<std::string>(result.report.at("stop_reason"));
-  found.require(triangles <= 60000 || shape.find("best possible") != 0 ||
-                    reason.find("triangles would be too far") != std::string::npos,
-                "the report does not say why there are ", triangles, " triangles");
   if (shape.find("best possible") == 0) {
     // Of 5°, but for the last digits.
     const int reported = std::get<int>(result.report.at("cavity_slivers"));

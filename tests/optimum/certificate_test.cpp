@@ -1,6 +1,7 @@
 // Proofs that no cavity can do what is asked for, against closed forms.
 #include "core/optimum/certificate.h"
 
+#include "cells.h"
 #include "core/base/angles.h"
 #include "core/base/cube_cut.h"
 #include "core/goals/mass.h"
@@ -75,7 +76,7 @@ protected:
       : mesh_(sampleMesh("leaning_egg")), posed_(makePosedModel(makeSolid(mesh_), {})),
         surface_(posed_.vertices, posed_.faces), solid_(moments(posed_.vertices, posed_.faces)),
         conditions_(makeStandGoal(posed_.contact, {})->conditions().front()),
-        bound_(greatestLevel(conditions_, solid_, {{}}, admissibleCells(surface_, posed_.wall))) {}
+        bound_(greatestLevel(conditions_, solid_, {{}}, cellsBehind(surface_, posed_.wall))) {}
 
   std::optional<Certificate> prove(double angle) const {
     return certificate(conditions_, std::tan(angle / kDegrees), bound_, solid_, {{}}, surface_,
@@ -189,13 +190,13 @@ struct TwoArms {
   PosedModel posed = makePosedModel(makeSolid(mesh), {});
   TriangleTree surface{posed.vertices, posed.faces};
   Moments solid = moments(posed.vertices, posed.faces);
-  AdmissibleCells cells = admissibleCells(surface, posed.wall);
+  AdmissibleCells cells = cellsBehind(surface, posed.wall);
   LinearConditions conditions = makeStandGoal(posed.contact, {})->conditions().front();
   Fillings ends{{}, {0.6}};
   Fillings everyLevel = ends;
 
   TwoArms() {
-    for (const double height : layerHeights(surface, admissibleParts(surface, posed.wall).edge))
+    for (const double height : layerHeights(regionBehind(surface, posed.wall), kCellsInBox))
       everyLevel.push_back({0.6, height});
   }
 };
@@ -280,7 +281,7 @@ TEST(Certificate, IsOnlyFoundForMassesBelowTheLeast) {
   for (const double excess : {-0.005, 0.005}) {
     const auto goal = makeMassGoal(1.0, least + excess, {});
     const LinearConditions conditions = goal->conditions().front();
-    const LevelBound bound = greatestLevel(conditions, solid, {{}}, admissibleCells(surface, 0.1));
+    const LevelBound bound = greatestLevel(conditions, solid, {{}}, cellsBehind(surface, 0.1));
     EXPECT_EQ(certificate(conditions, 0.0, bound, solid, {{}}, surface, 0.1).has_value(),
               excess < 0.0);
   }

@@ -1,6 +1,7 @@
 // How low the objective of a spinning body can be, against brute force and closed forms.
 #include "core/optimum/spinning_bound.h"
 
+#include "cells.h"
 #include "core/goals/spin.h"
 #include "core/goals/yo_yo.h"
 #include "core/optimum/extreme_bodies.h"
@@ -170,7 +171,7 @@ TEST(SpinningBound, OfABallIsThatOfTwoConesAlongTheAxis) {
   }
   const TriangleMesh ball = transformed(sphere(24), Mat3::Identity(), Vec3(0, 0, 1.3));
   const Moments solid = moments(ball.vertices, ball.faces);
-  const AdmissibleCells cells = admissibleCells({ball.vertices, ball.faces}, wall);
+  const AdmissibleCells cells = cellsBehind({ball.vertices, ball.faces}, wall);
   const auto goal = makeYoYoGoal(solid, {}, {0, 0, 1.3});
   const OptimalBound best = optimalBound(*goal, {}, solid, {{}}, cells);
   ASSERT_TRUE(best.objectiveAtLeast);

@@ -1,7 +1,5 @@
 // Cavities whose ceilings are to carry themselves, judged in cubes as a printer lays them.
 #include "core/pipeline.h"
-#include "core/query/point_in_mesh.h"
-#include "core/query/triangle_tree.h"
 #include "judge/layers.h"
 #include "large_test.h"
 #include "samples.h"
@@ -9,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <string>
 #include <variant>
 
@@ -63,30 +60,6 @@ TEST(Printable, DogStandsOnItsLegs) {
   expectCarried(sampleMesh("toy_dog"), {}, 0.4);
 }
 
-TEST(Printable, IsPartOfTheOffsetSurfacesCavity) {
-  Options options;
-  options.cavityShape = CavityShape::Offset;
-  const TriangleMesh model = sampleMesh("toy_dog");
-  expectCarried(model, options, 0.45);
-  const TriangleMesh whole = reversed(optimizeMassProperties(model, options).inner);
-  options.overhangAngle = 45.0;
-  const Result carried = optimizeMassProperties(model, options);
-  EXPECT_EQ(std::get<std::string>(carried.report.at("cavity_shape")),
-            "offset surface: as asked for");
-  // Its signed distance d is known at the nodes x_i of a grid, h apart. Where the mean of d(x_i)
-  // with the weights w_i between them is 0, d(x) >= sum w_i (d(x_i) - |x - x_i|) = -sum w_i |x -
-  // x_i|, which is at least -sqrt(sum w_i |x - x_i|^2) >= -sqrt(3/4) h, and h is a millimetre at
-  // most.
-  const double beyond = std::sqrt(0.75);
-  const TriangleTree border(whole.vertices, whole.faces);
-  const PointInMesh inside(border);
-  for (const auto& v : carried.inner.vertices.rowwise()) {
-    const Vec3 p = v.transpose();
-    if (inside.contains(p)) continue;
-    EXPECT_LE(std::sqrt(border.nearest(p).squaredDistance), beyond);
-  }
-}
-
 TEST(Printable, WeighsWhatIsAskedForWithAHeavyFilling) {
   LARGE_TEST();
   Options options;
@@ -138,11 +111,6 @@ TEST(Printable, LargestWallIsThatWithoutTheAngle) {
   EXPECT_NE(std::get<std::string>(nothing.report.at("message"))
                 .find("lower overhang_angle; without it, lower inner_lower_bound to "),
             std::string::npos);
-  options.cavityShape = CavityShape::Offset;
-  EXPECT_NE(std::get<std::string>(optimizeMassProperties(model, options).report.at("message"))
-                .find("at this wall, whatever overhang_angle is; without it, lower "),
-            std::string::npos);
-  options.cavityShape = CavityShape::Automatic;
   options.innerLowerBound = 0.99 * number(nothing, "largest_wall");
   options.overhangAngle = 0.0;
   EXPECT_GT(optimizeMassProperties(model, options).inner.faces.rows(), 0);
