@@ -1,5 +1,6 @@
 #include "core/pipeline_stages.h"
 
+#include "core/answer/host_rounding.h"
 #include "core/base/option_pairs.h"
 #include "core/base/parallel.h"
 #include "core/base/tolerances.h"
@@ -230,7 +231,7 @@ void proveOutOfReach(const Preparation& model, const Fillings& fillings, Search&
 /// What lies behind the walls on one side of the best quadric.
 Search searchBest(const Preparation& model, const Foundation& foundation, const Options& options,
                   ProgressBar& bar) {
-  bar.show(model.schedule.search, "Best possible cavity");
+  bar.show(Schedule::kBest, "Best possible cavity");
   Search result{taskOf(*model.goal, model, foundation, options), {}};
   if (!foundation.possible) {
     result.cavity.shape = CavityShape::BestPossible;
@@ -271,11 +272,13 @@ bool isBestPossible(const Options& options, bool isOpen) {
   return !isOpen && !moves(options);
 }
 
-std::optional<Possible> possibleWithin(const TriangleTree& surface, double wall, const Goal& goal,
-                                       const Moments& solid, const Options& options) {
+std::optional<Possible> possibleWithin(const TriangleTree& surface, double wall, double rounding,
+                                       const Goal& goal, const Moments& solid,
+                                       const Options& options) {
+  constexpr double kSteps = 10.0;      // of rounding, that do not fold the triangles of a cube
   constexpr double kRoundedOff = 1e-5; // of the wall
   const FeasibleSet set{surface, (1.0 + kRoundedOff) * wall, wall};
-  FeasibleRegion region = feasibleRegion(set, edgeFor(set));
+  FeasibleRegion region = feasibleRegion(set, std::max(edgeFor(set), kSteps * rounding));
   AdmissibleCells cells = admissibleCells(region, Admissible::BehindWalls, kCells);
   if (cells.rows() == 0) return std::nullopt;
   const AdmissibleCells reached = admissibleCells(region, Admissible::Reached, kCells);
@@ -353,8 +356,10 @@ Foundation coarsen(const Preparation& model, const Options& options, ProgressBar
   const auto findBound = [&] {
     if (moves(options) || model.posed.open) return;
     const Stopwatch time;
-    std::optional<Possible> possible =
-        possibleWithin(model.surface, model.posed.wall, *model.goal, model.solidMoments, options);
+    std::optional<Possible> possible = possibleWithin(
+        model.surface, model.posed.wall,
+        roundingStep(options.representable, model.solid.vertices()) / model.posed.frame.length,
+        *model.goal, model.solidMoments, options);
     if (possible) result.possible.emplace(*std::move(possible));
     result.secondsBound = time.seconds();
   };
@@ -370,6 +375,7 @@ Foundation coarsen(const Preparation& model, const Options& options, ProgressBar
   try {
     if (isBestPossible(options, model.posed.open.has_value())) {
       result.coarse.moving = std::make_shared<const MovingSurface>();
+      bar.show(Schedule::kLimit, "Best of all cavities");
       inParallel(findBound, checkCrossings);
       return result;
     }

@@ -113,9 +113,11 @@ struct Possible {
   Fillings states;
 };
 
-/// Empty: the wall leaves no room. `solid`: moments of the body within the surface.
-std::optional<Possible> possibleWithin(const TriangleTree& surface, double wall, const Goal& goal,
-                                       const Moments& solid, const Options& options);
+/// Empty: the wall leaves no room. `rounding`: the step between positions that can be delivered, a
+/// length; `solid`: moments of the body within the surface.
+std::optional<Possible> possibleWithin(const TriangleTree& surface, double wall, double rounding,
+                                       const Goal& goal, const Moments& solid,
+                                       const Options& options);
 
 /// What moves inwards, if anything does, and what the best of all cavities could do.
 struct Foundation {

@@ -41,7 +41,7 @@ double greatestDeviation(double most, const std::function<bool(double)>& holds) 
 /// Moments of what a slicer prints as infill: the material farther than the perimeters from its
 /// surfaces.
 Moments deepMaterial(const CavityTask& task, const CavityResult& cavity, double perimeters) {
-  constexpr double kMostCells = 25000.0; // in the model's bounding box
+  constexpr double kMostCells = 200000.0; // in the model's bounding box
   // A tree of the model costs as much as all else here.
   const TriangleTree& given = task.surface;
   std::optional<TriangleTree> own;

@@ -125,6 +125,7 @@ template <class Adjust>
 CavityResult inspectedCavity(const CavityTask& task, const FeasibleSet& set, BorderLattice lattice,
                              const Adjust& adjust) {
   constexpr int kRounds = 5;
+  constexpr int kPasses = 3;
   constexpr double kSpare = 5e-4; // of the wall: so triangles need no exact test as a rule
   const double wall = (1.0 + kSpare) * set.wall;
   ClearanceQuery clearance(task.surface);
@@ -138,9 +139,15 @@ CavityResult inspectedCavity(const CavityTask& task, const FeasibleSet& set, Bor
     Points& vertices = contour.mesh.vertices;
     Points raw = vertices;
     moveOntoWalls(task.surface, wall, lattice.edge(), placeAgain(placed, vertices), contour);
-    keepWall(clearance, set.wall, contour.mesh.faces, vertices);
     placed = {std::move(raw), vertices};
-    effort.evaluations += adjust(contour);
+    // What keeps the constraints may leave walls too thin, and the other way round.
+    for (int pass = 0; pass < kPasses; ++pass) {
+      keepWall(clearance, set.wall, contour.mesh.faces, vertices);
+      if (pass == 0) placed.moved = vertices;
+      const int evaluations = adjust(contour);
+      effort.evaluations += evaluations;
+      if (evaluations == 0) break;
+    }
     CavityResult result = resultOf(task, contour, clearance);
     effort.secondsInspection += result.effort.secondsInspection;
     effort.rounds = round;
@@ -204,7 +211,6 @@ CavityResult bestPossibleCavity(const CavityTask& task, const FeasibleSet& set,
   std::optional<QuadricCut> cut = QuadricCut{task.bound->worth, region.edge};
   if (!isCut(*cut, task.surface)) cut.reset();
   const auto adjust = [&](Contour& contour) {
-    if (!task.bound->isReachable()) return 0;
     return adjustToConstraints(task, kFarthest * region.edge, contour);
   };
   const FeasibleSet behind{set.surface, wallBeforeRounding(task), set.ball};

@@ -34,7 +34,8 @@ std::vector<int> positive(const Vector& values) {
 
 /// Moves these vertices by `factor` times what is missing.
 void moveInwards(const ClearanceQuery& clearance, const std::vector<int>& thin,
-                 const Vector& missing, double factor, const Faces& faces, Points& vertices) {
+                 const Vector& missing, double factor, bool guarded, const Faces& faces,
+                 Points& vertices) {
   constexpr Eigen::Index kRun = 256;
   const TriangleTree& surface = clearance.other();
   Points targets = vertices;
@@ -51,7 +52,11 @@ void moveInwards(const ClearanceQuery& clearance, const std::vector<int>& thin,
           factor * missing[v] * ((x - next).normalized() + inwards).normalized().transpose();
     }
   });
-  moveSoundly(targets, faces, vertices);
+  if (guarded) {
+    moveSoundly(targets, faces, vertices);
+  } else {
+    vertices = std::move(targets);
+  }
 }
 
 } // namespace
@@ -75,10 +80,13 @@ void moveOntoWalls(const TriangleTree& surface, double wall, double edge,
     RegionProbe probe({surface, wall, 0.0});
     for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
       const auto i = static_cast<std::size_t>(v);
-      if (contour.on[i] != On::Wall || moves[i] == 0) continue;
-      const Sample depth = probe.depthAt(vertices.row(v).transpose(), wall + edge, true);
+      if (moves[i] == 0) continue;
+      const Sample depth = probe.depthAt(vertices.row(v).transpose(), wall + edge);
       const double way = wall - depth.value;
-      if (std::abs(way) <= kFarthest * edge) vertices.row(v) += way * depth.slope.transpose();
+      // What lies on something else, too, only keeps the wall.
+      const bool isWanted = contour.on[i] == On::Wall || way > 0.0;
+      if (isWanted && std::abs(way) <= kFarthest * edge)
+        vertices.row(v) += way * depth.slope.transpose();
     }
   });
 }
@@ -86,6 +94,7 @@ void moveOntoWalls(const TriangleTree& surface, double wall, double edge,
 std::vector<int> keepWall(ClearanceQuery& clearance, double wall, const Faces& faces,
                           Points& vertices) {
   constexpr int kRounds = 6;
+  constexpr int kGuarded = 2; // rounds in which triangles stay sound; then the inspection decides
   constexpr double kMore = 1.05;  // than what is missing, for the direction turns on the way
   constexpr double kGrowth = 0.5; // a round: moves of neighbours undo some of it
   for (int round = 0;; ++round) {
@@ -93,7 +102,8 @@ std::vector<int> keepWall(ClearanceQuery& clearance, double wall, const Faces& f
     const Vector missing = shortfalls(wall, distances, faces, vertices.rows());
     std::vector<int> thin = positive(missing);
     if (thin.empty() || round == kRounds) return thin;
-    moveInwards(clearance, thin, missing, kMore + kGrowth * round, faces, vertices);
+    moveInwards(clearance, thin, missing, kMore + kGrowth * round, round < kGuarded, faces,
+                vertices);
   }
 }
 

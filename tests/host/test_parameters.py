@@ -68,7 +68,7 @@ class ParametersTest(HostTest):
         gaps = {}
         for shape, words in ((OFFSET_SURFACE, "offset surface: as asked for"),
                              (BEST_POSSIBLE, "best possible: as asked for"),
-                             (AUTOMATIC, "best possible: the offset surface leaves")):
+                             (AUTOMATIC, "best possible: the surface is closed and stays")):
             report, (vertices, faces) = self.top(cavity_shape=shape)
             self.assertTrue(report["cavity_shape"].startswith(words), report["cavity_shape"])
             self.assertTrue(report["solved"], report["message"])
