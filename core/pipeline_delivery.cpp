@@ -33,7 +33,7 @@ double leastDistance(const PosedModel& posed, const CavityResult& cavity,
 
 Result deliver(const Preparation& model, const Foundation& foundation, const Search& found,
                const Options& options, ProgressBar& bar) {
-  constexpr int kFound = 96;
+  constexpr int kFound = 97;
   bar.show(kFound, "Report");
   Result result;
   Delivery delivery =

@@ -425,6 +425,7 @@ Search search(const Preparation& model, const Foundation& foundation, const Opti
   }
   if (result.task.bound && result.cavity.status == CavityStatus::Found)
     raiseTo(result.task, hollowBody(result.task, result.cavity), *result.task.bound);
+  bar.show(Schedule::kJudged, "Margins and proofs");
   findPrintMargins(model, result);
   if (foundation.possible) proveOutOfReach(model, foundation.possible->states, result);
   if (result.cavity.status != CavityStatus::NoRoom) return result;

@@ -44,7 +44,7 @@ class LayersTest(HostTest):
 
     def test_the_answer_is_shown_by_three_layers_before_the_cavity(self):
         script = changed_script(script_of("toy_dinosaur"), self.folder / "s.mlx",
-                                show_layers="true")
+                                show_layers="true", cavity_shape=1)
         mesh = shutil.copy(SAMPLES / "toy_dinosaur.ply", self.folder / "model.ply")
         layers, report = self.project(mesh, script)
         names = [name for name, _ in layers]

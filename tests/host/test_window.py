@@ -90,7 +90,6 @@ class FilterTest(window.WindowTest):
         self.assertEqual(self.layers(),
                          ["toy.dinosaur", "toy_dinosaur cut open",
                           "toy_dinosaur centre of mass and contact area",
-                          "toy_dinosaur skeleton and correspondences",
                           "toy_dinosaur inner offset surface *"])
         picture = self.view("answer.png")
         red, green, blue = picture.transpose(2, 0, 1)
