@@ -32,7 +32,7 @@ Ceiling ceilingOf(const Preparation& model, const Options& options, const Triang
 
 CavityResult carriedCavity(const Preparation& model, const Possible& possible,
                            const Options& options, CavityTask task) {
-  constexpr int kRounds = 3; // columns are put below what hangs down in triangles nevertheless
+  constexpr int kRounds = 4; // columns are put below what hangs down in triangles nevertheless
   const OverhangWishes wishes = overhangWishes(model.posed, options);
   const PrintableTask printing{*model.goal,     options.weights, model.solidMoments,
                                possible.states, possible.set,    possible.region,

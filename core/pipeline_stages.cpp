@@ -277,8 +277,10 @@ std::optional<Possible> possibleWithin(const TriangleTree& surface, double wall,
                                        const Options& options) {
   constexpr double kSteps = 10.0;      // of rounding, that do not fold the triangles of a cube
   constexpr double kRoundedOff = 1e-5; // of the wall
+  constexpr double kCarrying = 0.7;    // as large: what carries a ceiling is narrow
   const FeasibleSet set{surface, (1.0 + kRoundedOff) * wall, wall};
-  FeasibleRegion region = feasibleRegion(set, std::max(edgeFor(set), kSteps * rounding));
+  const double edge = (options.overhangAngle > 0.0 ? kCarrying : 1.0) * edgeFor(set);
+  FeasibleRegion region = feasibleRegion(set, std::max(edge, kSteps * rounding));
   AdmissibleCells cells = admissibleCells(region, Admissible::BehindWalls, kCells);
   if (cells.rows() == 0) return std::nullopt;
   const AdmissibleCells reached = admissibleCells(region, Admissible::Reached, kCells);

@@ -78,9 +78,8 @@ std::string outlook(const CavityTask& task, const Verdict& verdict, const Body& 
   }
   const std::string none = " No cavity of any shape that " + keeps +
                            (isProved ? " can reach it" : " was found to reach it");
-  const std::vector<Moments> best = nearerToGoal(task, verdict, delivered);
-  if (best.empty())
-    return none + (isProved ? ", and none was found to come nearer." : " or to come nearer.");
+  std::vector<Moments> best = nearerToGoal(task, verdict, delivered);
+  if (best.empty()) best = {delivered.mass};
   return none + ": " + verdict.bestInWords(best) + ".";
 }
 

@@ -145,7 +145,7 @@ CavityResult inspectedCavity(const CavityTask& task, const FeasibleSet& set, Bor
       keepWall(clearance, set.wall, contour.mesh.faces, vertices);
       if (pass == 0) placed.moved = vertices;
       const int evaluations = adjust(contour);
-      effort.evaluations += evaluations;
+      effort.evaluations += 1 + evaluations; // once to see whether the constraints hold
       if (evaluations == 0) break;
     }
     CavityResult result = resultOf(task, contour, clearance);
@@ -153,6 +153,7 @@ CavityResult inspectedCavity(const CavityTask& task, const FeasibleSet& set, Bor
     effort.rounds = round;
     result.effort = effort;
     if (result.inspection.isClean()) {
+      result.stopReason = "passed inspection";
       compact(result);
       return result;
     }
@@ -207,7 +208,7 @@ int adjustVolume(const CavityTask& task, double volume, TriangleMesh& cavity) {
 CavityResult bestPossibleCavity(const CavityTask& task, const FeasibleSet& set,
                                 const FeasibleRegion& region) {
   const Stopwatch time;
-  constexpr double kFarthest = 0.5; // edges, that the cut moves
+  constexpr double kFarthest = 1.5; // edges, root mean square, that the cut moves
   std::optional<QuadricCut> cut = QuadricCut{task.bound->worth, region.edge};
   if (!isCut(*cut, task.surface)) cut.reset();
   const auto adjust = [&](Contour& contour) {

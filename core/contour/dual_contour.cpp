@@ -175,7 +175,7 @@ private:
     const Vec3 from = lattice_.positionOf(inside);
     const Vec3 way = lattice_.positionOf(outside) - from;
     // Nothing tells where: well away from what the border shall keep away from.
-    const Crossing somewhere{from + 0.6 * way, On::Reach, {}};
+    Crossing somewhere{from + 0.6 * way, On::Reach, {}};
     if (corner(outside).isTakenOut) return somewhere;
     const CornerSamples b = lattice_.samplesAt(outside);
     if (b.value() > 0.0) return beyond(b, from + way, from + kAlmostAll * way);

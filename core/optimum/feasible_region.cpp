@@ -266,7 +266,7 @@ Sample RegionProbe::depthAt(const Vec3& x, double exact, bool isInside) {
     const double distance = std::sqrt(clear.squaredDistance);
     return Sample{sign * distance, sign * (x - clear.point) / std::max(distance, 1e-300)};
   };
-  const Sample depth = signedDistance(set_.surface, inside_, isInside, nearest_);
+  Sample depth = signedDistance(set_.surface, inside_, isInside, nearest_);
   if (set_.hole == nullptr) return depth;
   const Sample inHole = signedDistance(*set_.hole, *insideHole_, false, nearestOfHole_);
   return -inHole.value < depth.value ? Sample{-inHole.value, -inHole.slope} : depth;

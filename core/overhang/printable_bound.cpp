@@ -1,6 +1,6 @@
 #include "core/overhang/printable_bound.h"
 
-#include "core/contour/dual_contour.h"
+#include "core/contour/cavity_surface.h"
 #include "core/optimum/admissible_cells.h"
 #include "core/overhang/ceiling.h"
 
@@ -49,6 +49,16 @@ public:
     takeFill();
   }
 
+  /// As it is delivered, but for what the walls and the constraints change.
+  Ceiling ceiling() const {
+    const std::optional<QuadricCut> cut = QuadricCut{found_.bound.worth, found_.region.edge};
+    Contour contour = dualContour(BorderLattice(task_.set, found_.region, cut));
+    removeSmallComponents(task_.set.ball, contour);
+    if (contour.mesh.faces.rows() == 0) return {};
+    const OverhangWishes& wishes = task_.wishes;
+    return ceilingOf(contour.mesh, wishes.toPrint, wishes.leastAngle, wishes.tipDepth);
+  }
+
 private:
   void takeFill() {
     isFilled_ = true;
@@ -67,18 +77,36 @@ private:
 } // namespace
 
 Printable printable(const PrintableTask& task, const OptimalBound& possible) {
-  constexpr int kRounds = 6;
-  const SupportingFill none(task.set, task.region.edge, task.wishes);
-  std::optional<Trial> best;
-  for (const double spacing : {0.0, 0.2}) { // of the diagonal, between pillars; 0: walls carry
-    SupportingFill fill = none;
-    if (spacing > 0.0) fill.allowPillars(spacing);
-    Trial trial(task, {possible, task.region}, std::move(fill));
-    trial.improve(kRounds);
-    if (!trial.isFilled()) return trial.found(); // nothing has to be carried
-    if (!best || isBetter(trial.bound(), best->bound())) best.emplace(std::move(trial));
+  constexpr int kFirstRounds = 2; // they tell which spacing serves best
+  constexpr int kRounds = 8;
+  constexpr int kColumnRounds = 4;
+  std::optional<Printable> first;
+  // What is thicker is torn less, what is finer has shorter spans; both cost more.
+  for (const auto& [halfThickness, edge] : {std::pair(0.8, 0.2), {1.0, 0.175}, {1.4, 0.15}}) {
+    OverhangWishes tried = task.wishes;
+    tried.halfThickness = halfThickness;
+    tried.edge = edge;
+    const SupportingFill none(task.set, task.region.edge, tried);
+    std::optional<Trial> best;
+    for (const double spacing : {0.0, 0.3, 0.2, 0.13}) { // of the diagonal, between pillars
+      SupportingFill fill = none;
+      if (spacing > 0.0) fill.allowPillars(spacing);
+      Trial trial(task, {possible, task.region}, std::move(fill));
+      trial.improve(kFirstRounds);
+      if (!trial.isFilled()) return trial.found(); // nothing has to be carried
+      if (!best || isBetter(trial.bound(), best->bound())) best.emplace(std::move(trial));
+    }
+    best->improve(kRounds);
+    for (int round = 0; round < kColumnRounds; ++round) {
+      const Ceiling ceiling = best->ceiling();
+      if (ceiling.tips.empty() && ceiling.widestSpan <= task.wishes.bridge) return best->found();
+      if (ceiling.tips.empty()) break;
+      best->stand(ceiling.tips);
+      best->improve(kFirstRounds);
+    }
+    if (!first) first.emplace(best->found());
   }
-  return best->found();
+  return *std::move(first);
 }
 
 Printable withColumns(const PrintableTask& task, const Printable& printable,

@@ -30,8 +30,8 @@ struct PrintableTask {
 };
 
 /// What carries the ceilings of the best body's cavity is filled and the best body found anew in
-/// what is left, until it needs no more: a local optimum, not a bound. With pillars or without, as
-/// serves better. `possible`: the best body in the region.
+/// what is left, until it needs no more: a local optimum, not a bound. The best of several spacings
+/// between pillars; thicker where its ceilings hang down. `possible`: the best body in the region.
 Printable printable(const PrintableTask& task, const OptimalBound& possible);
 
 /// With columns below what hangs down. \pre something is filled

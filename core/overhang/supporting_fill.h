@@ -19,9 +19,9 @@ struct OverhangWishes {
   double bridge = 0.0;             ///< longest span that may be flatter, a length
   double tipDepth = 0.0;           ///< how far a ceiling may hang down anywhere, a length
   /// Of what is filled, half; edges of the set's cubes or, where that is coarser, of the grid.
-  double halfThickness = 1.0;
+  double halfThickness = 0.8;
   /// Of the grid, in longest spans: four or five edges come out flat where a ceiling begins.
-  double edge = 0.165;
+  double edge = 0.2;
 };
 
 /// Material that grows downwards from the ceilings of a cavity that are too flat, at the wanted
