@@ -256,7 +256,10 @@ double largestWallOf(const Preparation& model, const Foundation& foundation, con
                      const CavityTask& task, const std::function<void(double)>& progress) {
   if (isBestPossible(options, model.posed.open.has_value())) {
     constexpr double kNearly = 0.95; // cubes do not see what just fits
-    return kNearly * wallWithRoomFor(largestInscribedBall(model.surface, model.posed.wall).radius);
+    const double wall =
+        kNearly * wallWithRoomFor(largestInscribedBall(model.surface, model.posed.wall).radius);
+    // Where it is no thinner than the wanted one there is a room smaller than the cubes.
+    return wall < model.posed.wall ? wall : 0.0;
   }
   const auto boundsFor = [&](double some) {
     return boundsKeeping(some, model, *foundation.coarse.moving, task.model.field, options);

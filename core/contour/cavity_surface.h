@@ -12,10 +12,9 @@ namespace massprops {
 /// cuts off a corner of a room.
 void removeSmallComponents(double ball, Contour& contour);
 
-/// Moves a vertex on what the wall leaves to where the depth is `wall`, others only inwards and only
-/// where it is less, by one Newton step no longer than
-/// half an edge: chords over what bulges into the cavity come nearer than their ends. `moves`: for
-/// every vertex whether it may.
+/// Moves a vertex on what the wall leaves to where the depth is `wall`, others only inwards and
+/// only where it is less, by one Newton step no longer than half an edge: chords over what bulges
+/// into the cavity come nearer than their ends. `moves`: for every vertex whether it may.
 void moveOntoWalls(const TriangleTree& surface, double wall, double edge,
                    const std::vector<char>& moves, Contour& contour);
 
