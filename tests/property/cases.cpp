@@ -650,6 +650,9 @@ PropertyCase makeCase(std::uint32_t seed, int number) {
   // Cut flat instead of standing on given radii.
   if (o.radiusX && o.outerUpperBound == 0.0 && chance.oneIn(2)) o.radiusX = o.radiusY = {};
   if (o.outerUpperBound > 0.0) o.foot = FootCut::Never;
+  // Refused together (option_pairs_test).
+  if (o.outerUpperBound > 0.0 && o.cavityShape == CavityShape::BestPossible)
+    o.cavityShape = CavityShape::Automatic;
   if (c.floats)
     o.representable = [](const Points& points) {
       return Points(points.cast<float>().cast<double>());
