@@ -231,6 +231,7 @@ TEST_P(EveryGoal, ShowsBothCentresOfMassAndWhatTheyAreJudgedBy) {
   options.waterLevel = 0.4;
   options.targetMass = 15.0;
   options.showAnswer = true;
+  options.cavityShape = CavityShape::Offset;
   const Result result = optimizeMassProperties(model, options);
   ASSERT_TRUE(result.picture);
   const Picture& picture = *result.picture;
@@ -295,6 +296,7 @@ TEST(Picture, IsDrawnOnlyWhenAskedFor) {
   const Result without = optimizeMassProperties(model, options);
   EXPECT_FALSE(without.picture);
   options.showAnswer = true;
+  options.cavityShape = CavityShape::Offset;
   const Result with = optimizeMassProperties(model, options);
   EXPECT_EQ(with.inner.vertices, without.inner.vertices);
 }
