@@ -296,7 +296,6 @@ TEST(Picture, IsDrawnOnlyWhenAskedFor) {
   const Result without = optimizeMassProperties(model, options);
   EXPECT_FALSE(without.picture);
   options.showAnswer = true;
-  options.cavityShape = CavityShape::Offset;
   const Result with = optimizeMassProperties(model, options);
   EXPECT_EQ(with.inner.vertices, without.inner.vertices);
 }
