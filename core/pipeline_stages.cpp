@@ -228,6 +228,42 @@ void proveOutOfReach(const Preparation& model, const Fillings& fillings, Search&
   found.secondsCertificate = time.seconds();
 }
 
+/// What is left of what is possible.
+double gapOf(const Search& found) {
+  const bool isFound = found.cavity.status == CavityStatus::Found;
+  const Body before = inputBody(found.task);
+  return gapToBound(*found.task.bound, before,
+                    isFound ? hollowBody(found.task, found.cavity) : before);
+}
+
+/// In smaller cubes, where those of the region leave too much: what is left goes with the square of
+/// their edge. Once.
+void searchFiner(const Preparation& model, const Possible& possible, const Options& options,
+                 Search& found) {
+  constexpr double kEnough = 0.015; // of what is possible is left
+  constexpr double kWanted = 0.008;
+  constexpr double kFinest = 0.35;     // of the edge
+  constexpr double kMost = 150000.0;   // cubes on the border
+  constexpr double kHardlyFiner = 0.9; // is not worth it
+  const double gap = gapOf(found);
+  if (gap <= kEnough) return;
+  const double edge = possible.region.edge;
+  const auto border = static_cast<double>(possible.region.border.size());
+  const double finer =
+      edge * std::max({std::sqrt(kWanted / gap), kFinest, std::sqrt(border / kMost)});
+  if (finer > kHardlyFiner * edge) return;
+  const FeasibleRegion region = feasibleRegion(possible.set, finer);
+  const AdmissibleCells reached = admissibleCells(region, Admissible::Reached, kCells);
+  CavityTask task = found.task;
+  task.bound = withBodyWithin(reached, *found.task.bound, *model.goal, options.weights,
+                              model.solidMoments, possible.states);
+  CavityResult cavity = bestPossibleCavity(task, possible.set, region);
+  cavity.effort += found.cavity.effort;
+  if (!servesBetter(task, cavity, found.cavity)) return;
+  found.cavity = std::move(cavity);
+  found.task.bound = std::move(task.bound);
+}
+
 /// What lies behind the walls on one side of the best quadric.
 Search searchBest(const Preparation& model, const Foundation& foundation, const Options& options,
                   ProgressBar& bar) {
@@ -246,8 +282,12 @@ Search searchBest(const Preparation& model, const Foundation& foundation, const 
   }
   std::optional<CavityResult> walled =
       uniformlyWalledCavity(result.task, possible.set, possible.cells, possible.region.edge);
-  result.cavity =
-      walled ? *std::move(walled) : bestPossibleCavity(result.task, possible.set, possible.region);
+  if (walled) {
+    result.cavity = *std::move(walled);
+    return result;
+  }
+  result.cavity = bestPossibleCavity(result.task, possible.set, possible.region);
+  searchFiner(model, possible, options, result);
   return result;
 }
 

@@ -212,7 +212,7 @@ CavityResult bestPossibleCavity(const CavityTask& task, const FeasibleSet& set,
   std::optional<QuadricCut> cut = QuadricCut{task.bound->worth, region.edge};
   if (!isCut(*cut, task.surface)) cut.reset();
   const auto adjust = [&](Contour& contour) {
-    return adjustToConstraints(task, kFarthest * region.edge, contour);
+    return adjustOnTriangles(task, kFarthest * region.edge, contour);
   };
   const FeasibleSet behind{set.surface, wallBeforeRounding(task), set.ball};
   CavityResult result = inspectedCavity(task, behind, BorderLattice(set, region, cut), adjust);

@@ -89,7 +89,7 @@ TEST(Adjustment, MovesTheCutUntilTheConstraintsHold) {
   wanted[2] += 3e-4;
   const WantedGoal goal(wanted);
   Contour contour = ball.contour;
-  EXPECT_GT(adjustToConstraints(ball.task(goal), 0.5 * ball.edge, contour), 0);
+  EXPECT_GT(adjustOnTriangles(ball.task(goal), 0.5 * ball.edge, contour), 0);
   EXPECT_LE(largestViolation(goal, ball.bodyOf(contour.mesh)), kFeasibility);
   EXPECT_TRUE(selfIntersectingFaces(contour.mesh.vertices, contour.mesh.faces).empty());
   const double farthest = farthestMove(contour, ball.contour);
@@ -105,7 +105,7 @@ TEST(Adjustment, LeavesWhatKeepsTheConstraintsWhereItIs) {
   const HollowBall ball(true);
   const WantedGoal goal(ball.bodyOf(ball.contour.mesh));
   Contour contour = ball.contour;
-  EXPECT_EQ(adjustToConstraints(ball.task(goal), 0.5 * ball.edge, contour), 0);
+  EXPECT_EQ(adjustOnTriangles(ball.task(goal), 0.5 * ball.edge, contour), 0);
   EXPECT_EQ(contour.mesh.vertices, ball.contour.mesh.vertices);
 }
 
@@ -115,7 +115,7 @@ TEST(Adjustment, MovesNothingWhereTheConstraintsDoNotCount) {
   CavityTask task = ball.task(goal);
   task.weights.constraints = 0.0;
   Contour contour = ball.contour;
-  adjustToConstraints(task, 0.5 * ball.edge, contour);
+  adjustOnTriangles(task, 0.5 * ball.edge, contour);
   EXPECT_EQ(contour.mesh.vertices, ball.contour.mesh.vertices);
 }
 
@@ -128,7 +128,7 @@ TEST(Adjustment, MovesWhatIsBehindTheWallsInwardsWhereNothingIsCutOff) {
   wanted[1] += 5e-6;
   const WantedGoal goal(wanted);
   Contour contour = ball.contour;
-  EXPECT_GT(adjustToConstraints(ball.task(goal), 0.5 * ball.edge, contour), 0);
+  EXPECT_GT(adjustOnTriangles(ball.task(goal), 0.5 * ball.edge, contour), 0);
   EXPECT_LE(largestViolation(goal, ball.bodyOf(contour.mesh)), kFeasibility);
   // Nothing comes nearer but by what chords are nearer than their ends.
   EXPECT_GE(ClearanceQuery(ball.tree).measure(contour.mesh.vertices, before.faces, 0.2).least,
@@ -142,7 +142,7 @@ TEST(Adjustment, MovesNothingWhereTheConstraintsAreOutOfReach) {
   wanted[1] += 0.1;
   const WantedGoal goal(wanted);
   Contour contour = ball.contour;
-  adjustToConstraints(ball.task(goal), 0.1 * ball.edge, contour);
+  adjustOnTriangles(ball.task(goal), 0.1 * ball.edge, contour);
   EXPECT_EQ(contour.mesh.vertices, ball.contour.mesh.vertices);
 }
 
