@@ -329,8 +329,8 @@ FeasibleRegion feasibleRegion(const FeasibleSet& set, double edge) {
 }
 
 double edgeFor(const FeasibleSet& set) {
-  constexpr double kCubes = 20000.0; // on the surface: these leave about a per cent
-  constexpr double kMost = 90000.0;  // a second's worth
+  constexpr double kCubes = 12000.0; // on the surface: these leave about a per cent
+  constexpr double kMost = 60000.0;  // half a second's worth
   constexpr double kAcross = 3.0;    // of a room: a node at least lies well inside of it
   constexpr double kFinest = 8.0;    // of the ball: finer ones lose nothing that counts
   const Points& vertices = set.surface.vertices();
