@@ -1,6 +1,6 @@
 #include "core/model/mending.h"
 
-#include "core/mesh/connectivity.h"
+#include "core/mesh/signed_volume.h"
 #include "core/model/closed_holes.h"
 #include "core/model/empty_shells.h"
 #include "core/model/local_crossings.h"
@@ -10,11 +10,10 @@
 #include "core/model/shell_orientation.h"
 #include "core/model/united_bodies.h"
 #include "core/model/wrapping.h"
+#include "core/query/enclosed_volume.h"
 #include "core/query/self_intersection.h"
-#include "core/query/winding_volume.h"
 
 #include <algorithm>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,13 +28,9 @@ const Way kToManifold = {joinedSeams, orientedShells, withoutLooseSheets, splitT
 /// From there to a solid, after its holes are closed.
 const Way kToSolid = {withoutLocalCrossings, withoutEmptyShells};
 /// What a union leaves is rounded to what the caller can store, and may have slivers that cross, or
-/// gaps where they could not be told: the same again.
-const Way kUnion = {unitedBodies,    joinedSeams,    orientedShells,        withoutLooseSheets,
-                    splitToManifold, closedOpenings, withoutLocalCrossings, withoutEmptyShells};
-/// Where that was not enough.
-const Way kLateUnion = {unitedBodies,    joinedSeams,    orientedShells,     withoutLooseSheets,
-                        splitToManifold, closedOpenings, withFewerCrossings, withoutEmptyShells};
-constexpr int kFirstUnions = 2;
+/// gaps where they could not be told.
+const Way kAfterUnion = {joinedSeams,    orientedShells,     withoutLooseSheets, splitToManifold,
+                         closedOpenings, withFewerCrossings, withoutEmptyShells};
 constexpr int kMostUnions = 6;
 
 /// Does the steps and writes down what they did. Returns whether they did anything.
@@ -77,42 +72,35 @@ bool isVase(const RepairedMesh& manifold, MendingTask task) {
 /// The solid's volume by what the triangles enclose, which is not certain where bodies face
 /// inwards.
 double shareOfVolume(const TriangleMesh& mesh, const Solid& solid) {
-  const WindingVolume volumes = windingVolumes(mesh, {solid.vertices(), solid.faces()});
-  return volumes.otherVolume / volumes.volume;
+  return signedVolume(solid.vertices(), solid.faces()) / enclosedVolume(mesh);
 }
 
 constexpr double kLeastShare = 0.75;
 constexpr double kMostShare = 1.5;
 
-/// Whether no body is lacking and nothing hollow is filled.
-bool hasVolumeOf(const TriangleMesh& mesh, const Solid& solid) {
-  const double share = shareOfVolume(mesh, solid);
-  return share >= kLeastShare && share <= kMostShare;
+std::size_t crossingsOf(const TriangleMesh& mesh) {
+  return selfIntersectingFaces(mesh.vertices, mesh.faces).size();
 }
 
-/// `closing`: the step that closes what is open.
-std::optional<Solid> solidFrom(RepairedMesh manifold, MendingStep closing,
-                               const MendingTask& task) {
-  RepairedMesh& model = manifold;
-  take({closing}, task, model);
+/// \pre the holes are closed
+std::optional<Solid> solidFrom(RepairedMesh model, const MendingTask& task) {
   take(kToSolid, task, model);
   std::optional<Solid> solid = solidOf(model, task);
-  const TriangleMesh bodies = solid ? TriangleMesh{} : model.mesh;
-  bool isUnion = false;
-  std::size_t fewest = std::numeric_limits<std::size_t>::max();
-  int inVain = 0;
-  for (int round = 0; !solid && round < kMostUnions && inVain < 2; ++round) {
-    if (!take(round < kFirstUnions ? kUnion : kLateUnion, task, model)) break;
-    isUnion = true;
+  if (solid) return solid;
+  const TriangleMesh bodies = model.mesh;
+  std::size_t fewest = crossingsOf(bodies);
+  for (int round = 0; !solid && round < kMostUnions; ++round) {
+    if (!take({unitedBodies}, task, model)) break;
+    take(kAfterUnion, task, model);
     solid = solidOf(model, task);
     if (solid) break;
-    const std::size_t crossings =
-        selfIntersectingFaces(model.mesh.vertices, model.mesh.faces).size();
-    inVain = crossings < fewest ? 0 : inVain + 1;
-    fewest = std::min(fewest, crossings);
+    const std::size_t crossings = crossingsOf(model.mesh);
+    if (crossings >= fewest) break;
+    fewest = crossings;
   }
-  // What came of a union may lack a body.
-  if (solid && isUnion && !hasVolumeOf(bodies, *solid)) solid.reset();
+  // What came of a union may lack a body, or be filled where it was hollow.
+  const double share = solid ? shareOfVolume(bodies, *solid) : 1.0;
+  if (share < kLeastShare || share > kMostShare) solid.reset();
   return solid;
 }
 
@@ -122,23 +110,16 @@ constexpr const char* kWasOpen =
 
 /// By steps, the wrap being the last of them.
 std::optional<Solid> mendedFrom(RepairedMesh manifold, const MendingTask& task) {
-  MendingStep closing = closedHoles;
   try {
-    std::optional<Solid> solid = solidFrom(manifold, closing, task);
-    if (solid) return solid;
+    take({closedHoles}, task, manifold);
   } catch (const LargeOpening&) {
     if (isVase(manifold, task)) throw;
     manifold.repairs.warning = kWasOpen;
-    closing = closedOpenings;
+    take({closedOpenings}, task, manifold);
   }
-  // Seams of a surface in pieces may be closed one by one, if that does not fill what is hollow.
-  if (countEdges(manifold.mesh.vertices.rows(), manifold.mesh.faces).boundary > 0) {
-    std::optional<Solid> solid = solidFrom(manifold, closedOpenings, task);
-    const bool isOpening = closing == closedOpenings;
-    if (solid && (isOpening || hasVolumeOf(manifold.mesh, *solid))) return solid;
-  }
-  // What was tried since is left to the wrap, but for holes that it need not find again.
-  take({closing, wrapped}, task, manifold);
+  std::optional<Solid> solid = solidFrom(manifold, task);
+  if (solid) return solid;
+  take({wrapped}, task, manifold);
   return solidOf(manifold, task);
 }
 
@@ -155,7 +136,7 @@ std::optional<Solid> mended(const TriangleMesh& input, const MendingTask& task) 
   const double share = shareOfVolume(given.mesh, *solid);
   if (share >= kLeastShare) return solid;
   // What was turned over or left out as a sheet on the way was a body's.
-  take({wrappedClosely}, task, given);
+  take({wrapped}, task, given);
   std::optional<Solid> whole = solidOf(given, task);
   return whole && shareOfVolume(given.mesh, *whole) > share ? whole : solid;
 }

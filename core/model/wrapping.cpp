@@ -1,15 +1,16 @@
 #include "core/model/wrapping.h"
 
+#include "core/base/tolerances.h"
 #include "core/base/triangle.h"
 #include "core/mesh/cgal_mesh.h"
 #include "core/mesh/components.h"
 #include "core/mesh/degenerate_faces.h"
 #include "core/mesh/signed_volume.h"
+#include "core/query/enclosed_volume.h"
 #include "core/query/self_intersection.h"
 #include "core/query/surface_deviation.h"
 #include "core/query/triangle_tree.h"
 #include "core/query/winding_number.h"
-#include "core/query/winding_volume.h"
 
 #include <CGAL/Alpha_wrap_3/internal/Alpha_wrap_3.h>
 #include <CGAL/Alpha_wrap_3/internal/Alpha_wrap_AABB_traits.h>
@@ -217,24 +218,25 @@ std::string percent(double share) {
          "." + std::to_string(static_cast<int>(std::abs(tenths)) % 10) + " %";
 }
 
-/// `kept`: least share of what the triangles enclose.
-MendedMesh wrappedKeeping(double kept, const TriangleMesh& input, const MendingTask& task) {
+} // namespace
+
+MendedMesh wrapped(const TriangleMesh& input, const MendingTask& task) {
   if (input.faces.rows() == 0) return {input};
   const double diagonal = diagonalOf(input.vertices);
   const double offset = std::min(0.25 * task.wall, diagonal / 400.0);
-  const double volume = windingVolumes(input, {}).volume;
-  constexpr double kNothing = 1e-4;
-  if (!(volume > kNothing * std::pow(diagonal, 3))) return {input};
+  const double volume = enclosedVolume(input);
+  if (!(volume > kLeastVolume * std::pow(diagonal, 3))) return {input};
 
   // A ball that fits through a hole leaves the hollow inside.
-  constexpr double kLarger = 1.5;
+  constexpr double kKept = 0.9;
+  const double coarsest = kCoarsestBall * diagonal;
   const double holes = radiusOfHoles(input, 0.5 * kFinestBall * diagonal);
   const TriangleTree surface(input.vertices, input.faces);
   std::optional<TriangleMesh> wrap;
-  for (double ball = std::clamp(holes, kFinestBall * diagonal, kCoarsestBall * diagonal);
-       !wrap && ball <= kCoarsestBall * diagonal; ball *= kLarger) {
+  for (const double ball : {std::clamp(holes, kFinestBall * diagonal, coarsest), coarsest}) {
     wrap = wrapOf(surface, ball, offset);
-    if (wrap && signedVolume(wrap->vertices, wrap->faces) < kept * volume) wrap.reset();
+    if (wrap && signedVolume(wrap->vertices, wrap->faces) < kKept * volume) wrap.reset();
+    if (wrap) break;
   }
   if (!wrap) return {input};
   wrap = tightened(*wrap, surface, offset, task);
@@ -244,31 +246,16 @@ MendedMesh wrappedKeeping(double kept, const TriangleMesh& input, const MendingT
   const TriangleTree tree(result.mesh.vertices, result.mesh.faces);
   result.distance = std::max(greatestDistance(result.mesh.vertices, result.mesh.faces, surface),
                              greatestDistance(input.vertices, visibleFaces(input), tree));
-  const bool isVolumeKnown = kept > 0.0;
-  const WindingVolume volumes = windingVolumes(input, result.mesh);
-  const double change = volumes.otherVolume / volumes.volume - 1.0;
-  result.done = isVolumeKnown ? "wrapped, volume " + percent(change) : "wrapped";
-  if (isVolumeKnown && result.distance <= task.wall && std::abs(change) <= kMostVolume)
-    return result;
+  const double change = signedVolume(result.mesh.vertices, result.mesh.faces) / volume - 1.0;
+  result.done = "wrapped, volume " + percent(change);
+  if (result.distance <= task.wall && std::abs(change) <= kMostVolume) return result;
   result.warning =
       "The model could not be mended piece by piece and was wrapped anew: its surface moved by up "
       "to " +
-      percent(result.distance / diagonal).substr(1) + " of the diagonal and " +
-      (isVolumeKnown ? "its volume changed by " + percent(change)
-                     : "its volume cannot be compared, for its triangles face every way") +
+      percent(result.distance / diagonal).substr(1) +
+      " of the diagonal and its volume changed by " + percent(change) +
       ", so look at the new outer surface.";
   return result;
-}
-
-} // namespace
-
-MendedMesh wrapped(const TriangleMesh& input, const MendingTask& task) {
-  constexpr double kKept = 0.9;
-  return wrappedKeeping(kKept, input, task);
-}
-
-MendedMesh wrappedClosely(const TriangleMesh& input, const MendingTask& task) {
-  return wrappedKeeping(0.0, input, task);
 }
 
 } // namespace massprops

@@ -1,7 +1,6 @@
 #include "core/query/winding_number.h"
 
 #include "core/query/surface_deviation.h"
-#include "core/query/winding_volume.h"
 #include "judge/checks.h"
 #include "shapes.h"
 
@@ -26,16 +25,6 @@ TEST(WindingNumber, IsTheSumOfAllSolidAngles) {
 
 TEST(WindingNumber, OfNothingIsZero) {
   EXPECT_EQ(WindingNumber({}, {}).at(Vec3::Zero()), 0.0);
-}
-
-TEST(WindingVolume, IsThatOfABall) {
-  const TriangleMesh ball = sphere(12);
-  TriangleMesh open = ball;
-  open.faces.conservativeResize(open.faces.rows() - 8, 3);
-  const WindingVolume volumes = windingVolumes(ball, open);
-  const double expected = quadratureMoments(ball)[0];
-  EXPECT_NEAR(volumes.volume, expected, 0.01 * expected);
-  EXPECT_NEAR(volumes.otherVolume, volumes.volume, 0.01 * expected);
 }
 
 TEST(GreatestDistance, IsThatOfTheFarthestCornerOrMiddle) {
