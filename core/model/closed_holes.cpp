@@ -290,28 +290,25 @@ MendedMesh closed(const TriangleMesh& input, const MendingTask& task, bool takes
     // A smooth one would bulge into the ground.
     if (loop.isNearGround) loop.shape = Shape::Taut;
   }
-  TriangleMesh closed = filled(input, loops, task);
-  findCrossings(closed, loops);
-  constexpr int kPlainer = 3;
-  for (int round = 0; round < kPlainer; ++round) {
-    bool isNew = false;
+  TriangleMesh closed;
+  for (bool isNew = true; isNew;) {
+    closed = filled(input, loops, task);
+    findCrossings(closed, loops);
+    isNew = false;
     for (Loop& loop : loops) {
       if (!loop.crosses || loop.shape == Shape::Fan) continue;
       loop.shape = static_cast<Shape>(static_cast<int>(loop.shape) + 1);
       isNew = true;
     }
-    if (!isNew) break;
-    closed = filled(input, loops, task);
-    findCrossings(closed, loops);
   }
   if (!takesOpenings) requireHoles(input, component, loops);
   leaveSheets(closed, loops);
-  closed = filled(input, loops, task);
-
-  MendedMesh result{std::move(closed)};
   const auto count = static_cast<std::size_t>(
       std::count_if(loops.begin(), loops.end(), [](const Loop& loop) { return !loop.isOpen; }));
   if (count == 0) return {input};
+  if (count < loops.size()) closed = filled(input, loops, task);
+
+  MendedMesh result{std::move(closed)};
   result.done = counted(count, "hole", "holes") + " closed";
   const Eigen::Index patches = result.mesh.faces.rows() - input.faces.rows();
   result.distance = greatestDistance(result.mesh.vertices, result.mesh.faces.bottomRows(patches),

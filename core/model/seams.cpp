@@ -18,6 +18,9 @@
 namespace massprops {
 namespace {
 
+/// A face may have more than one edge to cut, or to turn.
+constexpr int kRounds = 8;
+
 std::size_t at(Eigen::Index i) {
   return static_cast<std::size_t>(i);
 }
@@ -210,7 +213,6 @@ int middleCorner(const TriangleMesh& mesh, int f) {
 /// a neighbour there goes. Returns how many went.
 std::size_t removeFlat(TriangleMesh& mesh) {
   std::size_t removed = 0;
-  constexpr int kRounds = 8;
   for (int round = 0; round < kRounds; ++round) {
     const std::vector<int> flat = facesWithoutArea(mesh.vertices, mesh.faces);
     if (flat.empty()) break;
@@ -291,7 +293,6 @@ MendedMesh joinedSeams(const TriangleMesh& input, const MendingTask& /*task*/) {
     } else {
       merged = 0;
     }
-    constexpr int kRounds = 3; // a face may have more than one edge to cut
     for (int round = 0; round < kRounds; ++round) {
       const std::size_t now = splitAtTJunctions(mesh, tolerance);
       junctions += now;

@@ -27,11 +27,6 @@ std::size_t at(Eigen::Index i) {
   return static_cast<std::size_t>(i);
 }
 
-/// More are a soup, and take long: some milliseconds each.
-constexpr std::size_t kMostCrossings = 12000;
-/// That are worth a second attempt.
-constexpr std::size_t kFewCrossings = 3000;
-
 /// Whether as many faces run along every edge as against it.
 bool isBalanced(const Faces& faces) {
   std::vector<std::array<int, 3>> sides;
@@ -129,9 +124,7 @@ void balance(const Faces& faces, const std::vector<std::vector<int>>& patches,
     }
     for (const auto& [edge, along] : borders[p]) sum[edge] += isKept[p] != 0 ? along : 0;
   }
-  constexpr int kRounds = 10;
-  bool isChanged = true;
-  for (int round = 0; isChanged && round < kRounds; ++round) {
+  for (bool isChanged = true; isChanged;) { // each change lessens the sum of what is left
     isChanged = false;
     for (std::size_t p = 0; p < patches.size(); ++p) {
       if (isCertain[p] != 0) continue;
@@ -251,14 +244,16 @@ MendedMesh unitedBodies(const TriangleMesh& input, const MendingTask& task) {
   if (!isBalanced(input.faces)) return {input};
   MendedMesh result{input};
   const std::vector<int> crossing = selfIntersectingFaces(input.vertices, input.faces);
-  if (crossing.size() > kMostCrossings) return {input};
   if (!crossing.empty()) {
     result = united(input, crossing, task);
-    if (crossing.size() <= kFewCrossings && faultsOf(result, task) > 0) {
+    if (faultsOf(result, task) > 0) {
       TriangleMesh larger = grown(input);
       const double moved = (larger.vertices - input.vertices).rowwise().norm().maxCoeff();
       larger.vertices = task.representable(larger.vertices);
-      MendedMesh other = united(larger, selfIntersectingFaces(larger.vertices, larger.faces), task);
+      const std::vector<int> fewer = selfIntersectingFaces(larger.vertices, larger.faces);
+      // Most are gone where bodies lay on each other; elsewhere it is the same once more.
+      MendedMesh other{input};
+      if (2 * fewer.size() < crossing.size()) other = united(larger, fewer, task);
       if (!other.done.empty() && faultsOf(other, task) < faultsOf(result, task)) {
         result = std::move(other);
         result.distance = std::max(result.distance, moved);
