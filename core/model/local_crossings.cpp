@@ -145,19 +145,19 @@ std::vector<Faces> fillings(const TriangleMesh& mesh, const VertexCorners& corne
 }
 
 /// The surface with new faces in these places; where that fails the place stays as it is, or, where
-/// `all` are to be replaced, the surface. Of what falls apart the largest stays; the rest is what
-/// crossed.
-TriangleMesh replaced(const TriangleMesh& mesh, std::vector<Place> places, double mostVolume,
-                      bool all) {
+/// `all` are to be replaced, nothing comes of it. Of what falls apart the largest stays; the rest
+/// is what crossed.
+std::optional<TriangleMesh> replaced(const TriangleMesh& mesh, std::vector<Place> places,
+                                     double mostVolume, bool all) {
   const auto fails = [](const Place& place) { return place.borders.empty(); };
   for (;;) {
-    if (all && std::any_of(places.begin(), places.end(), fails)) return mesh;
+    if (all && std::any_of(places.begin(), places.end(), fails)) return std::nullopt;
     std::vector<char> stays(at(mesh.faces.rows()), 1);
     for (const Place& place : places) {
       for (const int f : place.faces) stays[at(f)] = fails(place) ? 1 : 0;
     }
     const Components parts = connectedComponents(mesh.vertices.rows(), facesOf(mesh, stays));
-    if (parts.empty()) return mesh;
+    if (parts.empty()) return std::nullopt;
     const Faces kept =
         *std::max_element(parts.begin(), parts.end(), [&](const Faces& a, const Faces& b) {
           return surfaceArea(mesh.vertices, a) < surfaceArea(mesh.vertices, b);
@@ -175,8 +175,8 @@ TriangleMesh replaced(const TriangleMesh& mesh, std::vector<Place> places, doubl
     if (hasFailed) continue;
     const Faces faces = joined(pieces);
     const EdgeCounts edges = countEdges(mesh.vertices.rows(), faces);
-    if (edges.boundary + edges.nonManifold + edges.incoherent > 0) return mesh;
-    return {mesh.vertices, faces};
+    if (edges.boundary + edges.nonManifold + edges.incoherent > 0) return std::nullopt;
+    return TriangleMesh{mesh.vertices, faces};
   }
 }
 
@@ -210,15 +210,14 @@ std::optional<Mended> mendedComponent(const TriangleMesh& component,
     std::vector<char> isMarked(at(mesh.faces.rows()), 0);
     for (const int f : present) isMarked[at(f)] = 1;
     for (int ring = 0; ring < rings; ++ring) grow(mesh, isMarked);
-    TriangleMesh next = replaced(mesh, placesOf(mesh, isMarked), most, all);
+    std::optional<TriangleMesh> next = replaced(mesh, placesOf(mesh, isMarked), most, all);
+    if (!next || std::abs(signedVolume(next->vertices, next->faces) - volume) > most) continue;
     // What is new may cross, too.
-    std::vector<int> others = selfIntersectingFaces(next.vertices, next.faces);
-    if (others.size() >= present.size() ||
-        std::abs(signedVolume(next.vertices, next.faces) - volume) > most)
-      continue;
+    std::vector<int> others = selfIntersectingFaces(next->vertices, next->faces);
+    if (others.size() >= present.size()) continue;
     result.distance += greatestDistance(mesh.vertices, facesOf(mesh, isMarked),
-                                        TriangleTree(next.vertices, next.faces));
-    result.mesh = std::move(next);
+                                        TriangleTree(next->vertices, next->faces));
+    result.mesh = *std::move(next);
     present = std::move(others);
   }
   result.left = present.size();

@@ -159,6 +159,15 @@ bool staysPinched(const Pinch& pinch, const Faces& faces, CornerSets& sets) {
   return std::adjacent_find(ends.begin(), ends.end()) != ends.end();
 }
 
+std::vector<const Pinch*> tightOf(const std::vector<Pinch>& pinches, const Faces& faces,
+                                  CornerSets& sets) {
+  std::vector<const Pinch*> tight;
+  for (const Pinch& pinch : pinches) {
+    if (staysPinched(pinch, faces, sets)) tight.push_back(&pinch);
+  }
+  return tight;
+}
+
 /// Edges of these get a vertex in their middle, one in each face.
 TriangleMesh withMiddles(const TriangleMesh& mesh, const std::vector<const Pinch*>& pinches) {
   std::map<std::pair<int, int>, int> middleOf;
@@ -196,15 +205,27 @@ TriangleMesh withMiddles(const TriangleMesh& mesh, const std::vector<const Pinch
   return result;
 }
 
+/// From a vertex into the material behind these of its corners: a tenth of the shortest edge, at
+/// least and at most so far.
+Vec3 wayInward(const TriangleMesh& mesh, const std::vector<int>& corners, double least,
+               double most) {
+  Vec3 normal = Vec3::Zero();
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const int c : corners) {
+    normal += areaNormal(mesh.vertices, mesh.faces, c / 3).stableNormalized();
+    const int v = mesh.faces.data()[c];
+    const int next = mesh.faces.data()[nextHalfEdge(c)];
+    shortest = std::min(shortest, (mesh.vertices.row(next) - mesh.vertices.row(v)).norm());
+  }
+  return -std::clamp(0.1 * shortest, least, most) * normal.stableNormalized();
+}
+
 MendedMesh splitOnce(const TriangleMesh& given) {
   TriangleMesh input = given;
   auto sets = std::make_unique<CornerSets>(input.faces.size());
   std::vector<Pinch> pinches = joinAcrossEdges(input, *sets);
   const std::size_t edges = pinches.size();
-  std::vector<const Pinch*> tight;
-  for (const Pinch& pinch : pinches) {
-    if (staysPinched(pinch, input.faces, *sets)) tight.push_back(&pinch);
-  }
+  const std::vector<const Pinch*> tight = tightOf(pinches, input.faces, *sets);
   if (!tight.empty()) {
     input = withMiddles(input, tight);
     sets = std::make_unique<CornerSets>(input.faces.size());
@@ -230,20 +251,15 @@ MendedMesh splitOnce(const TriangleMesh& given) {
     ++vertices;
     const Vec3 place = input.vertices.row(v).transpose();
     for (std::size_t r = 0; r < roots.size(); ++r) {
-      Vec3 normal = Vec3::Zero();
-      double shortest = std::numeric_limits<double>::infinity();
       const int number =
           r == 0 ? static_cast<int>(v)
                  : static_cast<int>(input.vertices.rows()) + static_cast<int>(added.size());
+      std::vector<int> own;
       for (const int c : corners.at(v)) {
-        if (sets->of(c) != roots[r]) continue;
-        normal += areaNormal(input.vertices, input.faces, c / 3).stableNormalized();
-        const int next = input.faces.data()[nextHalfEdge(c)];
-        shortest = std::min(shortest, (input.vertices.row(next).transpose() - place).norm());
-        mesh.faces.data()[c] = number;
+        if (sets->of(c) == roots[r]) own.push_back(c);
       }
-      const Vec3 moved =
-          place - std::clamp(0.1 * shortest, least, most) * normal.stableNormalized();
+      for (const int c : own) mesh.faces.data()[c] = number;
+      const Vec3 moved = place + wayInward(input, own, least, most);
       if (r == 0) {
         mesh.vertices.row(v) = moved.transpose();
       } else {

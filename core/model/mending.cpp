@@ -14,6 +14,7 @@
 #include "core/query/self_intersection.h"
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -78,23 +79,20 @@ double shareOfVolume(const TriangleMesh& mesh, const Solid& solid) {
 constexpr double kLeastShare = 0.75;
 constexpr double kMostShare = 1.5;
 
-std::size_t crossingsOf(const TriangleMesh& mesh) {
-  return selfIntersectingFaces(mesh.vertices, mesh.faces).size();
-}
-
 /// \pre the holes are closed
 std::optional<Solid> solidFrom(RepairedMesh model, const MendingTask& task) {
   take(kToSolid, task, model);
   std::optional<Solid> solid = solidOf(model, task);
   if (solid) return solid;
   const TriangleMesh bodies = model.mesh;
-  std::size_t fewest = crossingsOf(bodies);
+  std::size_t fewest = std::numeric_limits<std::size_t>::max();
   for (int round = 0; !solid && round < kMostUnions; ++round) {
     if (!take({unitedBodies}, task, model)) break;
     take(kAfterUnion, task, model);
     solid = solidOf(model, task);
     if (solid) break;
-    const std::size_t crossings = crossingsOf(model.mesh);
+    const std::size_t crossings =
+        selfIntersectingFaces(model.mesh.vertices, model.mesh.faces).size();
     if (crossings >= fewest) break;
     fewest = crossings;
   }

@@ -209,6 +209,16 @@ int middleCorner(const TriangleMesh& mesh, int f) {
   return best;
 }
 
+void leaveOut(const std::vector<char>& goes, Faces& faces) {
+  Eigen::Index kept = 0;
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    if (goes[at(f)] != 0) continue;
+    const Eigen::RowVector3i face = faces.row(f);
+    faces.row(kept++) = face;
+  }
+  faces.conservativeResize(kept, 3);
+}
+
 /// Turns the longest edge of faces without area into the neighbour's other diagonal; a face without
 /// a neighbour there goes. Returns how many went.
 std::size_t removeFlat(TriangleMesh& mesh) {
@@ -260,13 +270,7 @@ std::size_t removeFlat(TriangleMesh& mesh) {
       mesh.faces.row(other) = one;
       mesh.faces.row(f) = two;
     }
-    Eigen::Index kept = 0;
-    for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f) {
-      if (goes[at(f)] != 0) continue;
-      const Eigen::RowVector3i face = mesh.faces.row(f);
-      mesh.faces.row(kept++) = face;
-    }
-    mesh.faces.conservativeResize(kept, 3);
+    leaveOut(goes, mesh.faces);
     removed += now;
     if (now == 0) break;
   }
