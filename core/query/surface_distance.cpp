@@ -173,16 +173,7 @@ public:
     }
   }
 
-  /// For every vertex the least of the triangles around it.
-  Vector distances() const {
-    Vector around = squared_;
-    for (Eigen::Index f = 0; f < faces_.rows(); ++f) {
-      const double nearest = leastAtCorners(squared_, f);
-      for (const int v : faces_.row(f)) around[v] = std::min(around[v], nearest);
-    }
-    return around.cwiseSqrt();
-  }
-
+  Vector distances() const { return squared_.cwiseSqrt(); }
   const std::vector<int>& nearestFace() const { return nearestFace_; }
   const Vector& vertexBounds() const { return vertexBounds_; }
   const Vector& faceBounds() const { return faceBounds_; }

@@ -9,9 +9,9 @@
 namespace massprops {
 
 struct Clearance {
-  /// For every vertex that a face uses: the least distance of the triangles around it from the
-  /// other surface; infinity for other vertices. Below the horizon exact to a billionth; above it
-  /// at least the horizon, at most 5 % more than the least over the triangles' corners.
+  /// For every vertex that a face uses: its distance from the other surface or, where a triangle
+  /// around it comes nearer than the triangle's corners, that of the triangle; infinity for other
+  /// vertices. Below the horizon exact to a billionth; above it at least the horizon.
   Vector distance;
   double least = 0.0;           ///< of all, exact to a billionth; infinity without faces
   std::vector<int> crossing;    ///< faces that cross the other surface, ascending
