@@ -13,7 +13,6 @@
 #include "core/optimum/foot_depth.h"
 #include "core/overhang/printable_bound.h"
 #include "core/reduced/hollow_body.h"
-#include "core/reduced/search_strategy.h"
 
 #include <algorithm>
 #include <cmath>
@@ -135,43 +134,35 @@ bool keepsConstraints(const CavityTask& task, const CavityResult& cavity) {
   return cavity.status == CavityStatus::Found && hollowBody(task, cavity).violation <= kFeasibility;
 }
 
-/// The best offset surface.
+/// The best offset surface. One search: for what the goal wants instead where its constraints are
+/// out of reach, else for the goal, or for it without constraints that the best body keeps by
+/// itself; where it does not, a second one with them.
 Search searchOffsets(const Preparation& model, const Foundation& foundation, const Options& options,
                      ProgressBar& bar) {
   bar.show(model.schedule.directions, "Offset directions");
-  const auto taskFor = [&](const Goal& goal) {
-    return offsetTask(goal, model, foundation, options);
-  };
-  const auto searchFor = [&](CavityTask& task) {
-    return bestCavity(task, bar.within(model.schedule.search, Schedule::kEnd, "Optimization"));
-  };
-  Search result{taskFor(*model.goal), {}};
+  Search result{offsetTask(*model.goal, model, foundation, options), {}};
   bar.show(model.schedule.search, "Optimization");
-  const std::unique_ptr<Goal> instead = model.goal->insteadOfConstraints();
-  const bool isOutOfReach = foundation.possible && !foundation.possible->bound.isReachable();
-  const std::unique_ptr<Goal> relaxed = isOutOfReach ? nullptr : model.goal->relaxed();
-  if (relaxed) {
-    CavityTask task = taskFor(*relaxed);
-    result.cavity = searchFor(task);
-  }
-  const bool isDone = relaxed && keepsConstraints(result.task, result.cavity);
-  if (!isDone && !(instead && isOutOfReach)) {
-    CavityResult found = searchFor(result.task);
+  const auto searchFor = [&](CavityTask& task) {
+    CavityResult found =
+        searchCavity(task, bar.within(model.schedule.search, Schedule::kEnd, "Optimization"));
     found.effort += result.cavity.effort;
-    result.cavity = std::move(found);
-  }
+    return found;
+  };
+  const bool isOutOfReach = foundation.possible && !foundation.possible->bound.isReachable();
+  const std::unique_ptr<Goal> other =
+      isOutOfReach ? model.goal->insteadOfConstraints() : model.goal->relaxed();
   // A solid body that keeps them already wants nothing instead.
-  const bool isSolidEnough = inputBody(result.task).violation <= kFeasibility;
-  if (instead && !isSolidEnough &&
-      (isOutOfReach || !keepsConstraints(result.task, result.cavity))) {
-    CavityTask task = taskFor(*instead);
-    task.bound.reset(); // of another objective
-    task.weights = insteadOfConstraints(task.weights);
-    CavityResult other = searchFor(task);
-    other.effort += result.cavity.effort;
-    if (isUseless(result.task, other)) other.status = CavityStatus::NoGain;
-    if (!servesBetter(result.task, result.cavity, other)) result.cavity = std::move(other);
+  if (other && !(isOutOfReach && inputBody(result.task).violation <= kFeasibility)) {
+    CavityTask task = offsetTask(*other, model, foundation, options);
+    if (isOutOfReach) {
+      task.bound.reset(); // of another objective
+      task.weights = insteadOfConstraints(task.weights);
+    }
+    result.cavity = searchFor(task);
+    if (isUseless(result.task, result.cavity)) result.cavity.status = CavityStatus::NoGain;
+    if (isOutOfReach || keepsConstraints(result.task, result.cavity)) return result;
   }
+  result.cavity = searchFor(result.task);
   return result;
 }
 
@@ -291,20 +282,18 @@ Search searchBest(const Preparation& model, const Foundation& foundation, const 
   return result;
 }
 
-/// The wall up to which the shape that is asked for finds room; 0 when none was found.
-double largestWallOf(const Preparation& model, const Foundation& foundation, const Options& options,
-                     const CavityTask& task, const std::function<void(double)>& progress) {
-  if (isBestPossible(options, model.posed.open.has_value())) {
-    constexpr double kNearly = 0.95; // cubes do not see what just fits
-    const double wall =
-        kNearly * wallWithRoomFor(largestInscribedBall(model.surface, model.posed.wall).radius);
-    // Where it is no thinner than the wanted one there is a room smaller than the cubes.
-    return wall < model.posed.wall ? wall : 0.0;
-  }
-  const auto boundsFor = [&](double some) {
-    return boundsKeeping(some, model, *foundation.coarse.moving, task.model.field, options);
+/// A thinner wall, behind which a ball as wide as it fits; 0 when none was found.
+double largestWallOf(const PosedModel& posed, const TriangleTree& surface) {
+  constexpr double kNearly = 0.95;  // cubes do not see what just fits
+  const bool isWhole = !posed.open; // openings have lids for a ball
+  const auto radius = [&](const TriangleTree& closed) {
+    return largestInscribedBall(closed, posed.wall).radius;
   };
-  return largestWall(task, boundsFor, progress);
+  const double wall =
+      kNearly * wallWithRoomFor(isWhole ? radius(surface)
+                                        : radius(TriangleTree(posed.vertices, posed.faces)));
+  // Where it is no thinner than the wanted one there is a room smaller than the cubes.
+  return wall < posed.wall ? wall : 0.0;
 }
 
 } // namespace
@@ -321,8 +310,12 @@ std::optional<Possible> possibleWithin(const TriangleTree& surface, double wall,
   constexpr double kSteps = 10.0;      // of rounding, that do not fold the triangles of a cube
   constexpr double kRoundedOff = 1e-5; // of the wall
   constexpr double kCarrying = 0.7;    // as large: what carries a ceiling is narrow
+  constexpr double kOfCells = 1.5;     // as large, where no contour is made: 0.2 % of the limit
   const FeasibleSet set{surface, (1.0 + kRoundedOff) * wall, wall};
-  const double edge = (options.overhangAngle > 0.0 ? kCarrying : 1.0) * edgeFor(set);
+  const double factor = !isBestPossible(options, false) ? kOfCells
+                        : options.overhangAngle > 0.0   ? kCarrying
+                                                        : 1.0;
+  const double edge = factor * edgeFor(set);
   FeasibleRegion region = feasibleRegion(set, std::max(edge, kSteps * rounding));
   AdmissibleCells cells = admissibleCells(region, Admissible::BehindWalls, kCells);
   if (cells.rows() == 0) return std::nullopt;
@@ -476,9 +469,7 @@ Search search(const Preparation& model, const Foundation& foundation, const Opti
   if (result.cavity.status != CavityStatus::NoRoom) return result;
 
   const Stopwatch time;
-  constexpr int kFound = 99; // before the report
-  const auto progress = bar.within(Schedule::kEnd, kFound, "Largest wall that leaves room");
-  result.largestWall = largestWallOf(model, foundation, options, result.task, progress);
+  result.largestWall = largestWallOf(model.posed, model.surface);
   result.secondsLargestWall = time.seconds();
   return result;
 }

@@ -991,25 +991,6 @@ TEST(Pipeline, ComparesWithTheBoundWithoutSmoothness) {
   EXPECT_NEAR(number("gap_to_limit"), (share - std::sqrt(limit)) / (1.0 - std::sqrt(limit)), 1e-9);
 }
 
-TEST(Pipeline, ShowsProgressAndTimeOfTheSearchForALargerWall) {
-  Options options;
-  options.goal = GoalKind::Mass;
-  options.cavityShape = CavityShape::Offset; // of the other one a ball tells it at once
-  options.innerLowerBound = 0.45;            // of a ball of diameter 1: nearly all of it
-  int last = 0;
-  int steps = 0;
-  const Progress progress = [&](int percent, const char* stage) {
-    EXPECT_GE(percent, last);
-    last = percent;
-    if (std::string(stage).find("Largest wall") != std::string::npos) ++steps;
-  };
-  const Report report = optimizeMassProperties(scaled(sphere(4), 0.5), options, progress).report;
-  ASSERT_EQ(std::get<int>(report.at("cavity_components")), 0);
-  EXPECT_GT(steps, 1);
-  EXPECT_EQ(last, 100);
-  EXPECT_GT(std::get<double>(report.at("seconds_largest_wall")), 0.0);
-}
-
 TEST(Pipeline, KnowsTheLargestWallThatLeavesRoomForABestPossibleCavity) {
   Options options;
   options.goal = GoalKind::Mass;

@@ -7,14 +7,14 @@
 namespace massprops {
 
 Vector lipschitzBelow(const Points& vertices, const VertexAdjacency& neighbours,
-                      const Vector& values, double slope) {
+                      const Vector& values) {
   // Dijkstra's algorithm with every vertex a source of its own value; it starts from those that
   // limit a neighbour, most often few.
   Vector result = values;
   using Entry = std::pair<double, int>;
   std::vector<Entry> start;
   const auto limitFor = [&](Eigen::Index v, int w) {
-    return result[v] + slope * (vertices.row(v) - vertices.row(w)).norm();
+    return result[v] + (vertices.row(v) - vertices.row(w)).norm();
   };
   for (Eigen::Index v = 0; v < values.size(); ++v) {
     for (const int w : neighbours[static_cast<std::size_t>(v)]) {
@@ -42,8 +42,8 @@ Vector lipschitzBelow(const Points& vertices, const VertexAdjacency& neighbours,
 }
 
 Vector lipschitzAbove(const Points& vertices, const VertexAdjacency& neighbours,
-                      const Vector& values, double slope) {
-  return -lipschitzBelow(vertices, neighbours, -values, slope);
+                      const Vector& values) {
+  return -lipschitzBelow(vertices, neighbours, -values);
 }
 
 } // namespace massprops

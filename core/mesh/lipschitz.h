@@ -6,12 +6,12 @@
 
 namespace massprops {
 
-/// The greatest function below `values` that changes by at most `slope` × length along any edge.
+/// The greatest function below `values` that changes by at most the length along any edge.
 Vector lipschitzBelow(const Points& vertices, const VertexAdjacency& neighbours,
-                      const Vector& values, double slope);
+                      const Vector& values);
 
-/// The least function above `values` that changes by at most `slope` × length along any edge.
+/// The least function above `values` that changes by at most the length along any edge.
 Vector lipschitzAbove(const Points& vertices, const VertexAdjacency& neighbours,
-                      const Vector& values, double slope);
+                      const Vector& values);
 
 } // namespace massprops

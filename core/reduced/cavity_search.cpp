@@ -1,18 +1,13 @@
 #include "core/reduced/cavity_search.h"
 
-#include "core/base/parallel.h"
 #include "core/base/stopwatch.h"
-#include "core/base/tolerances.h"
-#include "core/base/triangle.h"
 #include "core/mesh/lipschitz.h"
-#include "core/mesh/signed_volume.h"
 #include "core/mesh/vertex_adjacency.h"
 #include "core/query/triangle_tree.h"
 #include "core/reduced/closing_in.h"
+#include "core/reduced/hollow_body.h"
 
 #include <algorithm>
-#include <atomic>
-#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -94,8 +89,7 @@ Inspection inspectResult(const CavityTask& task, const CavityResult& result,
 /// One search from the middle of the bounds to a cavity that passes inspection, in rounds.
 class CavitySearch {
 public:
-  /// `optimizes`: if not, the cavity is as large as the wall allows.
-  CavitySearch(const CavityTask& task, bool optimizes, const std::function<void(double)>& progress);
+  CavitySearch(const CavityTask& task, const std::function<void(double)>& progress);
 
   CavityResult run();
 
@@ -107,7 +101,6 @@ private:
   CavityResult withStatus();
 
   const CavityTask& task_;
-  const bool optimizes_;
   const std::function<void(double)>& progress_;
   const VertexAdjacency neighbours_;
   const Faces& cavityFaces_; ///< when nothing is solid
@@ -123,9 +116,8 @@ private:
   CavityResult result_;
 };
 
-CavitySearch::CavitySearch(const CavityTask& task, bool optimizes,
-                           const std::function<void(double)>& progress)
-    : task_(task), optimizes_(optimizes), progress_(progress),
+CavitySearch::CavitySearch(const CavityTask& task, const std::function<void(double)>& progress)
+    : task_(task), progress_(progress),
       neighbours_(vertexAdjacency(movingVertices(task).rows(), movingFaces(task))),
       cavityFaces_(task.open != nullptr ? task.open->cavity : movingFaces(task)),
       corners_(vertexCorners(positionCount(task), cavityFaces_)),
@@ -137,7 +129,7 @@ CavitySearch::CavitySearch(const CavityTask& task, bool optimizes,
   limits_.thinRounds.resize(limits_.solid.size());
   limits_.solid.resize(static_cast<std::size_t>(positionCount(task)), 0);
   limits_.inner.lower = lipschitzAbove(movingVertices(task), neighbours_,
-                                       limits_.inner.lower.cwiseMin(limits_.inner.upper), 1.0);
+                                       limits_.inner.lower.cwiseMin(limits_.inner.upper));
   solver_.maxEvaluations = kMostEvaluations;
   solver_.objectiveTolerance = kObjectiveTolerance;
   Vector outerStart;
@@ -182,7 +174,6 @@ void CavitySearch::beginRound(int round) {
   addMarks(limits_.solid, tooThin(task_.model.field, limits_.inner));
   model_.inner = limits_.inner;
   keepOrdered(model_.inner);
-  if (!optimizes_) model_.inner.upper = model_.inner.lower;
   model_.outer = limits_.outer;
   if (!task_.goalFor) return;
   const OffsetSurfaces present = offsetSurfaces(model_, coefficients_);
@@ -208,16 +199,13 @@ bool CavitySearch::closeCavity() {
 }
 
 void CavitySearch::optimize() {
-  result_.stopReason = "least offsets";
-  if (optimizes_) {
-    MinimizeResult best =
-        minimize([&](const Vector& x) { return evaluate(model_, *goal_, task_.weights, x); },
-                 coefficients_, solver_);
-    solver_.objectiveScale = best.objectiveScale;
-    coefficients_ = std::move(best.x);
-    result_.effort.evaluations += best.evaluations;
-    result_.stopReason = std::move(best.stopReason);
-  }
+  MinimizeResult best =
+      minimize([&](const Vector& x) { return evaluate(model_, *goal_, task_.weights, x); },
+               coefficients_, solver_);
+  solver_.objectiveScale = best.objectiveScale;
+  coefficients_ = std::move(best.x);
+  result_.effort.evaluations += best.evaluations;
+  result_.stopReason = std::move(best.stopReason);
   surfaces_ = offsetSurfaces(model_, coefficients_);
 }
 
@@ -253,19 +241,12 @@ SearchEffort& SearchEffort::operator+=(const SearchEffort& other) {
   return *this;
 }
 
-CavityResult searchCavity(const CavityTask& task, const std::function<void(double)>& progress) {
-  return CavitySearch(task, true, progress).run();
-}
-
-bool leavesRoom(const CavityTask& task) {
-  constexpr double kLeastShare = 0.003;
-  const std::function<void(double)> silent;
-  const CavityResult result = CavitySearch(task, false, silent).run();
-  if (result.status != CavityStatus::Found) return false;
-  if (task.open != nullptr) return true;
-  // Of a crumb that is left here nothing may be left at a slightly thinner wall.
-  return signedVolume(result.inner, result.cavity.faces) >
-         kLeastShare * signedVolume(movingVertices(task), movingFaces(task));
+CavityResult searchCavity(CavityTask& task, const std::function<void(double)>& progress) {
+  Fillings& fillings = task.model.fillings;
+  if (task.bound && task.bound->binding.size() > fillings.size()) fillings = task.bound->binding;
+  CavityResult result = CavitySearch(task, progress).run();
+  if (isUseless(task, result)) result.status = CavityStatus::NoGain;
+  return result;
 }
 
 } // namespace massprops

@@ -81,13 +81,10 @@ Moments outerMoments(const CavityTask& task, const CavityResult& result);
 /// The cavity that serves the goal best among those that pass inspection. Where a cavity crosses
 /// itself or comes too near to the outer surface the bounds close in, and what is left without room
 /// becomes solid; after a bounded number of rounds all that still fails becomes solid, so that
-/// what is returned is clean or empty. `progress`: called with the share of the work that is done,
-/// 0…1; may be empty.
-CavityResult searchCavity(const CavityTask& task, const std::function<void(double)>& progress);
-
-/// Whether a cavity with the least offsets passes inspection, without optimising anything, and
-/// takes more than three thousandths of a closed body's volume. Where it does, `searchCavity`
-/// finds one, too.
-bool leavesRoom(const CavityTask& task);
+/// what is returned is clean or empty. Where the body is to serve the goal with contents at any
+/// level, those that the bound's proof rests on become the task's fillings. Status NoGain: there is
+/// a cavity, but the solid body serves the goal at least as well. `progress`: called with the share
+/// of the work that is done, 0…1; may be empty.
+CavityResult searchCavity(CavityTask& task, const std::function<void(double)>& progress);
 
 } // namespace massprops

@@ -1,27 +1,21 @@
 #include "core/reduced/closing_in.h"
 
-#include "core/base/parallel.h"
 #include "core/base/tolerances.h"
 #include "core/base/triangle.h"
 #include "core/mesh/lipschitz.h"
 #include "core/query/triangle_tree.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 namespace massprops {
 namespace {
 
-/// A step that was seen to clear most folds in one to three rounds.
-constexpr double kShrink = 0.6;
 /// Correcting a missing wall by a little more needs fewer rounds; by twice as much each time that
 /// the same vertex fails, for its offset may lead along the surface.
 constexpr double kOverstep = 1.1;
 /// Of a step along an offset that leads to the side: no more than 1/0.6 times what is missing.
 constexpr double kLeastGain = 0.6;
-/// Bounds change no faster than the surface does.
-constexpr double kBoundSlope = 1.0;
 /// An offset beyond this share of its range is as good as the greatest; where the cavity is
 /// narrower than so many walls there, it is a thread that the goal does without.
 constexpr double kUnwanted = 0.75;
@@ -72,21 +66,21 @@ void closeIn(const CavityTask& task, const CavityResult& result, const VertexAdj
   };
   OffsetBounds& inner = limits.inner;
   for (const int v : found.crossing) {
+    solid[static_cast<std::size_t>(v)] = 1;
     if (!isPatient) fill(v);
-    inner.upper[v] = std::min(inner.upper[v], kShrink * result.innerOffsets[v]);
   }
   for (const int v : found.thin) {
     if (!isPatient) fill(v);
     correctWall(task, result, v, limits);
   }
-  inner.lower = lipschitzAbove(vertices, neighbours, inner.lower, kBoundSlope);
-  inner.upper = lipschitzBelow(vertices, neighbours, inner.upper, kBoundSlope);
+  inner.lower = lipschitzAbove(vertices, neighbours, inner.lower);
+  inner.upper = lipschitzBelow(vertices, neighbours, inner.upper);
   if (!limits.outer) return;
   OffsetBounds& outer = *limits.outer;
   for (const int v : found.outerCrossing) {
-    outer.upper[v] = std::min(outer.upper[v], isPatient ? kShrink * result.outerOffsets[v] : 0.0);
+    outer.upper[v] = std::min(outer.upper[v], isPatient ? 0.5 * result.outerOffsets[v] : 0.0);
   }
-  outer.upper = lipschitzBelow(vertices, neighbours, outer.upper, kBoundSlope);
+  outer.upper = lipschitzBelow(vertices, neighbours, outer.upper);
   outer.lower = outer.lower.cwiseMin(outer.upper);
 }
 
@@ -96,21 +90,18 @@ bool fillNarrowParts(const CavityTask& task, const OffsetSurfaces& surfaces,
   const Points& inner = surfaces.inner;
   const TriangleTree tree(inner, faces, TriangleTree::Order::Any,
                           TriangleTree::Queries::NoDistances);
-  constexpr Eigen::Index kChunk = 1024;
-  std::atomic<Eigen::Index> filled = 0;
-  forChunks(inner.rows(), kChunk, [&](const Chunk& chunk) {
-    for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
-      char& mark = solid[static_cast<std::size_t>(v)];
-      if (mark != 0) continue;
-      const double share =
-          (surfaces.innerOffsets[v] - bounds.lower[v]) / (bounds.upper[v] - bounds.lower[v]);
-      const double width = (share > kUnwanted ? kUnwantedWidth : 1.0) * task.wall;
-      const Vec3 inwards = -task.model.field.directions.row(v).transpose();
-      if (tree.firstHit(inner.row(v).transpose(), inwards, width) >= width) continue;
-      mark = 1;
-      ++filled;
-    }
-  });
+  Eigen::Index filled = 0;
+  for (Eigen::Index v = 0; v < inner.rows(); ++v) {
+    char& mark = solid[static_cast<std::size_t>(v)];
+    if (mark != 0) continue;
+    const double share =
+        (surfaces.innerOffsets[v] - bounds.lower[v]) / (bounds.upper[v] - bounds.lower[v]);
+    const double width = (share > kUnwanted ? kUnwantedWidth : 1.0) * task.wall;
+    const Vec3 inwards = -task.model.field.directions.row(v).transpose();
+    if (tree.firstHit(inner.row(v).transpose(), inwards, width) >= width) continue;
+    mark = 1;
+    ++filled;
+  }
   return static_cast<double>(filled) > kWorthTrimming * 0.5 * static_cast<double>(faces.rows());
 }
 

@@ -18,9 +18,9 @@ struct SearchLimits {
 };
 
 /// Moves the limits so that what the inspection of `result` found cannot happen again in the same
-/// way: offsets of vertices that cross something shrink, those with too thin a wall get the missing
-/// length, twice as much each time. Without patience all that failed becomes solid, and a moved
-/// outer surface stays there where it was.
+/// way: vertices that cross something become solid, those with too thin a wall get the missing
+/// length, twice as much each time, and a moved outer surface goes half as far. Without patience
+/// all that failed becomes solid with what is next to it, and the outer surface stays where it was.
 void closeIn(const CavityTask& task, const CavityResult& result, const VertexAdjacency& neighbours,
              bool isPatient, SearchLimits& limits);
 

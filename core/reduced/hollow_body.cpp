@@ -73,6 +73,11 @@ bool servesBetter(const CavityTask& task, const CavityResult& a, const CavityRes
          servesBetter(task, hollowBody(task, a), hollowBody(task, b));
 }
 
+bool isUseless(const CavityTask& task, const CavityResult& cavity) {
+  return task.open == nullptr && cavity.status == CavityStatus::Found &&
+         !servesBetter(task, hollowBody(task, cavity), inputBody(task));
+}
+
 double gapToBound(const OptimalBound& bound, const Body& before, const Body& after) {
   const auto gap = [](double ours, double best, double solid) {
     return solid > best ? std::max(0.0, ours - best) / (solid - best) : 0.0;

@@ -33,6 +33,10 @@ bool servesBetter(const CavityTask& task, const Body& a, const Body& b);
 /// The same for cavities; none is worse than any.
 bool servesBetter(const CavityTask& task, const CavityResult& a, const CavityResult& b);
 
+/// Whether the solid body serves the goal at least as well; never of an open surface, of which a
+/// shell is asked for whatever a solid body could do.
+bool isUseless(const CavityTask& task, const CavityResult& cavity);
+
 /// Share of what a cavity could gain that is not gained, 0 for the best possible: in the verdict
 /// where that is one number, else in the objective where it can be compared, else in the violation
 /// of the constraints. The bound knows nothing of

@@ -79,22 +79,15 @@ OffsetBounds outerBounds(const Points& vertices, const OffsetField& field, doubl
 
 BoundedOffsets boundMap(const OffsetBounds& bounds, const Vector& t) {
   BoundedOffsets result{Vector(t.size()), Vector(t.size())};
-  constexpr Eigen::Index kChunk = 2048;
-  forChunks(t.size(), kChunk, [&](const Chunk& chunk) {
-    for (Eigen::Index i = chunk.begin; i < chunk.end; ++i) {
-      const double centre = 0.5 * (bounds.upper[i] + bounds.lower[i]);
-      const double halfWidth = 0.5 * (bounds.upper[i] - bounds.lower[i]);
-      if (halfWidth <= 0.0) {
-        result.offsets[i] = bounds.upper[i];
-        result.slopes[i] = 0.0;
-        continue;
-      }
-      const double tau = (t[i] - centre) / halfWidth;
-      const double root = 1.0 / std::sqrt(1.0 + tau * tau);
-      result.offsets[i] = centre + halfWidth * tau * root;
-      result.slopes[i] = root * root * root;
-    }
-  });
+  for (Eigen::Index i = 0; i < t.size(); ++i) {
+    const double centre = 0.5 * (bounds.upper[i] + bounds.lower[i]);
+    const double halfWidth = 0.5 * (bounds.upper[i] - bounds.lower[i]);
+    // Solid vertices have no room.
+    const double tau = halfWidth > 0.0 ? (t[i] - centre) / halfWidth : 0.0;
+    const double root = 1.0 / std::sqrt(1.0 + tau * tau);
+    result.offsets[i] = centre + halfWidth * tau * root;
+    result.slopes[i] = halfWidth > 0.0 ? root * root * root : 0.0;
+  }
   return result;
 }
 

@@ -1,6 +1,5 @@
 #include "core/reduced/offset_field.h"
 
-#include "core/base/parallel.h"
 #include "core/base/triangle.h"
 #include "core/mesh/connectivity.h"
 #include "core/mesh/lipschitz.h"
@@ -19,7 +18,6 @@ namespace {
 
 /// Two opposite sides of a limb that both move less than half-way cannot meet.
 constexpr double kShareOfChord = 0.5;
-constexpr double kReachSlope = 1.0;
 
 Points unitFaceNormals(const Points& vertices, const Faces& faces) {
   Points normals(faces.rows(), 3);
@@ -100,35 +98,32 @@ OffsetField offsetField(const Points& vertices, const Faces& faces, const Points
   field.reach.resize(vertices.rows());
   field.clearance.resize(vertices.rows());
   field.meanClearance.resize(vertices.rows());
-  constexpr Eigen::Index kChunk = 2048;
-  forChunks(vertices.rows(), kChunk, [&](const Chunk& chunk) {
-    FaceFan fan;
-    for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
-      fan.clear();
-      for (const int corner : corners.at(v)) fan.push_back(corner / 3);
-      const Vec3 outward = (vertices.row(v) - axis.row(v)).transpose();
-      Vec3 direction = outward.stableNormalized();
-      double clearance = clearanceOf(direction, fan, normals);
-      if (!(clearance >= kWantedClearance)) {
-        const Vec3 target = mostNormalDirection(fan, normals);
-        const double attainable = clearanceOf(target, fan, normals);
-        direction =
-            turnedIntoCone(direction, target, std::min(kWantedClearance, attainable), fan, normals);
-        clearance = clearanceOf(direction, fan, normals);
-      }
-      field.directions.row(v) = direction.transpose();
-      field.reach[v] = outward.norm();
-      field.clearance[v] = clearance;
-      Vec3 mean = Vec3::Zero();
-      for (const int f : fan) mean += areaNormal(vertices, faces, f);
-      field.meanClearance[v] = std::max(clearance, mean.stableNormalized().dot(direction));
+  FaceFan fan;
+  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
+    fan.clear();
+    for (const int corner : corners.at(v)) fan.push_back(corner / 3);
+    const Vec3 outward = (vertices.row(v) - axis.row(v)).transpose();
+    Vec3 direction = outward.stableNormalized();
+    double clearance = clearanceOf(direction, fan, normals);
+    if (!(clearance >= kWantedClearance)) {
+      const Vec3 target = mostNormalDirection(fan, normals);
+      const double attainable = clearanceOf(target, fan, normals);
+      direction =
+          turnedIntoCone(direction, target, std::min(kWantedClearance, attainable), fan, normals);
+      clearance = clearanceOf(direction, fan, normals);
     }
-  });
+    field.directions.row(v) = direction.transpose();
+    field.reach[v] = outward.norm();
+    field.clearance[v] = clearance;
+    Vec3 mean = Vec3::Zero();
+    for (const int f : fan) mean += areaNormal(vertices, faces, f);
+    field.meanClearance[v] = std::max(clearance, mean.stableNormalized().dot(direction));
+  }
   const TriangleTree tree(vertices, faces, TriangleTree::Order::Any,
                           TriangleTree::Queries::NoDistances);
   const Vector through = chords(tree, vertices, -field.directions);
   field.reach = lipschitzBelow(vertices, vertexAdjacency(vertices.rows(), faces),
-                               field.reach.cwiseMin(kShareOfChord * through), kReachSlope);
+                               field.reach.cwiseMin(kShareOfChord * through));
   return field;
 }
 

@@ -1,52 +1,29 @@
 #include "core/reduced/offset_problem.h"
 
-#include "core/base/parallel.h"
 #include "core/model/open_surface.h"
 #include "core/physics/moments.h"
 
 #include <utility>
-#include <vector>
 
 namespace massprops {
 namespace {
 
-constexpr Eigen::Index kChunk = 1024;
-
 /// Hα at the vertices.
 Vector fieldOf(const OffsetModel& model, const Eigen::Ref<const Vector>& coefficients) {
-  const auto& functions = model.surface->basis.functions;
-  Vector atBasis(functions.rows());
-  forChunks(atBasis.size(), kChunk, [&](const Chunk& chunk) {
-    const Eigen::Index size = chunk.end - chunk.begin;
-    atBasis.segment(chunk.begin, size) = functions.middleRows(chunk.begin, size) * coefficients;
-  });
-  return model.surface->interpolation * atBasis;
+  return model.surface->interpolation * Vector(model.surface->basis.functions * coefficients);
 }
 
 /// Derivatives by the coefficients of what changes by row i of `rates` per unit of (Hα)_i; k
 /// columns.
 Matrix byCoefficients(const OffsetModel& model, const RowMatrix& rates) {
-  const auto& functions = model.surface->basis.functions;
-  const RowMatrix atBasis = model.surface->interpolation.transposeTimes(rates);
-  std::vector<Matrix> parts(static_cast<std::size_t>(chunkCount(atBasis.rows(), kChunk)));
-  forChunks(atBasis.rows(), kChunk, [&](const Chunk& chunk) {
-    const Eigen::Index size = chunk.end - chunk.begin;
-    parts[static_cast<std::size_t>(chunk.number)].noalias() =
-        atBasis.middleRows(chunk.begin, size).transpose() * functions.middleRows(chunk.begin, size);
-  });
-  Matrix sum = Matrix::Zero(rates.cols(), functions.cols());
-  for (const Matrix& part : parts) sum += part;
-  return sum;
+  return model.surface->interpolation.transposeTimes(rates).transpose() *
+         model.surface->basis.functions;
 }
 
 /// d(moments)/d(coefficients) of a surface whose vertex i moves by sign·φ'_i per unit of (Hα)_i.
 MomentJacobian jacobian(const OffsetModel& model, MomentRates rates, const Vector& slopes,
                         double sign) {
-  forChunks(rates.rows(), kChunk, [&](const Chunk& chunk) {
-    const Eigen::Index size = chunk.end - chunk.begin;
-    rates.middleRows(chunk.begin, size).array().colwise() *=
-        sign * slopes.segment(chunk.begin, size).array();
-  });
+  rates.array().colwise() *= sign * slopes.array();
   MomentJacobian result = MomentJacobian::Zero(10, model.surface->basis.functions.cols());
   result.topRows(rates.cols()) = byCoefficients(model, rates);
   return result;
@@ -54,15 +31,7 @@ MomentJacobian jacobian(const OffsetModel& model, MomentRates rates, const Vecto
 
 /// x_i + sign·offset_i·d_i
 Points displaced(const OffsetModel& model, const Vector& offsets, double sign) {
-  Points result(offsets.size(), 3);
-  forChunks(offsets.size(), kChunk, [&](const Chunk& chunk) {
-    const Eigen::Index size = chunk.end - chunk.begin;
-    const auto lengths = sign * offsets.segment(chunk.begin, size);
-    result.middleRows(chunk.begin, size) =
-        model.surface->vertices.middleRows(chunk.begin, size) +
-        lengths.asDiagonal() * model.field.directions.middleRows(chunk.begin, size);
-  });
-  return result;
+  return model.surface->vertices + (sign * offsets).asDiagonal() * model.field.directions;
 }
 
 /// The cavity's moments and their derivatives by α.

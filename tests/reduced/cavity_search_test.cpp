@@ -1,5 +1,5 @@
-// What a search is asked for, and which wall would leave room.
-#include "core/reduced/search_strategy.h"
+// What a search takes from its task, and what it says of the result.
+#include "core/reduced/cavity_search.h"
 
 #include "core/goals/registry.h"
 #include "core/model/posed_model.h"
@@ -57,49 +57,26 @@ struct Lump {
   }
 };
 
-TEST(SearchStrategy, SaysWhereTheSolidBodyServesTheGoalAtLeastAsWell) {
+TEST(CavitySearch, SaysWhereTheSolidBodyServesTheGoalAtLeastAsWell) {
   const Lump lump;
   CavityTask task = lump.task();
-  const CavityResult found = bestCavity(task, {});
+  const CavityResult found = searchCavity(task, {});
   ASSERT_EQ(found.status, CavityStatus::Found);
   EXPECT_LT(hollowBody(task, found).volume, 0.9 * task.inputMoments[0]);
   // An input that weighs next to nothing.
   task.inputMoments *= 1e-3;
-  EXPECT_EQ(bestCavity(task, {}).status, CavityStatus::NoGain);
+  EXPECT_EQ(searchCavity(task, {}).status, CavityStatus::NoGain);
 }
 
-TEST(SearchStrategy, TakesTheLevelsOfContentsThatTheBoundRestsOn) {
+TEST(CavitySearch, TakesTheLevelsOfContentsThatTheBoundRestsOn) {
   const Lump lump;
   CavityTask task = lump.task();
   task.model.fillings = {{}, {0.5}};
   task.bound.emplace();
   task.bound->binding = {{}, {0.5}, {0.5, 0.1}};
-  bestCavity(task, {});
+  searchCavity(task, {});
   ASSERT_EQ(task.model.fillings.size(), 3U);
   EXPECT_EQ(task.model.fillings.back().level, 0.1);
-}
-
-TEST(SearchStrategy, GoesOnWhileItLooksForALargerWall) {
-  const Lump lump;
-  CavityTask task = lump.task();
-  task.wall = 10.0 * lump.posed.wall;
-  double last = 0.0;
-  int calls = 0;
-  const double wall = largestWall(
-      task,
-      [&](double w) {
-        return keepingWall(lump.posed.vertices, *lump.surface, task.model.field,
-                           innerBounds(task.model.field, w, 0.9), w);
-      },
-      [&](double share) {
-        EXPECT_GT(share, last);
-        EXPECT_LE(share, 1.0);
-        last = share;
-        ++calls;
-      });
-  EXPECT_GT(wall, 0.0);
-  EXPECT_LT(wall, task.wall);
-  EXPECT_GT(calls, 2);
 }
 
 } // namespace
