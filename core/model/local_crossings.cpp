@@ -169,7 +169,7 @@ std::optional<Mended> mendedComponent(const TriangleMesh& component,
       present = selfIntersectingFaces(mesh.vertices, mesh.faces);
       if (areMany(present, mesh)) break;
     }
-    if (present.empty() && hasVolume(volume, mesh) && distance <= task.wall) {
+    if (present.empty() && hasVolume(volume, mesh) && task.wall.hides(distance)) {
       return Mended{submesh(mesh.vertices, mesh.faces).mesh, distance, 0};
     }
   }
@@ -215,7 +215,7 @@ std::optional<Mended> mendedPlaces(const TriangleMesh& component, std::vector<in
         if (!next || !hasVolume(volume, *next)) continue;
         std::vector<int> others = selfIntersectingFaces(next->vertices, next->faces);
         if (others.size() >= crossing.size()) continue;
-        if (distanceOf(mesh, isMarked, *next) > task.wall) continue;
+        if (!task.wall.hides(distanceOf(mesh, isMarked, *next))) continue;
         mesh = *std::move(next);
         crossing = std::move(others);
         return true;
@@ -230,7 +230,7 @@ std::optional<Mended> mendedPlaces(const TriangleMesh& component, std::vector<in
   mesh = submesh(mesh.vertices, mesh.faces).mesh;
   const double distance = greatestDistance(component.vertices, component.faces,
                                            TriangleTree(mesh.vertices, mesh.faces));
-  if (distance > task.wall) return std::nullopt;
+  if (!task.wall.hides(distance)) return std::nullopt;
   return Mended{std::move(mesh), distance, crossing.size()};
 }
 

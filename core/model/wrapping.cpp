@@ -1,5 +1,6 @@
 #include "core/model/wrapping.h"
 
+#include "core/base/interruption.h"
 #include "core/base/triangle.h"
 #include "core/mesh/cgal_mesh.h"
 #include "core/mesh/components.h"
@@ -102,6 +103,7 @@ public:
   }
 
   bool do_intersect(const Geom_traits::Ball_3& ball) const {
+    checkpoint();
     return surface_.nearest(at(ball.boundary().center()), ball.boundary().squared_radius()).face >=
            0;
   }
@@ -109,6 +111,7 @@ public:
   template <class Kernel>
   bool do_intersect(
       const CGAL::Alpha_wraps_3::internal::Tetrahedron_with_outside_info<Kernel>& cell) const {
+    checkpoint();
     const CGAL::Bbox_3& box = cell.m_bbox;
     bool isCut = false;
     surface_.forOverlaps({box.xmin(), box.ymin(), box.zmin()}, {box.xmax(), box.ymax(), box.zmax()},
@@ -221,7 +224,8 @@ std::string percent(double share) {
 MendedMesh wrappedKeeping(double kept, const TriangleMesh& input, const MendingTask& task) {
   if (input.faces.rows() == 0) return {input};
   const double diagonal = diagonalOf(input.vertices);
-  const double offset = std::min(0.25 * task.wall, diagonal / 400.0);
+  const double most = diagonal / 400.0;
+  const double offset = task.wall.hides(4.0 * most) ? most : 0.25 * task.wall.exactly();
   const double volume = windingVolumes(input, {}).volume;
   constexpr double kNothing = 1e-4;
   if (!(volume > kNothing * std::pow(diagonal, 3))) return {input};
@@ -248,7 +252,7 @@ MendedMesh wrappedKeeping(double kept, const TriangleMesh& input, const MendingT
   const WindingVolume volumes = windingVolumes(input, result.mesh);
   const double change = volumes.otherVolume / volumes.volume - 1.0;
   result.done = isVolumeKnown ? "wrapped, volume " + percent(change) : "wrapped";
-  if (isVolumeKnown && result.distance <= task.wall && std::abs(change) <= kMostVolume)
+  if (isVolumeKnown && task.wall.hides(result.distance) && std::abs(change) <= kMostVolume)
     return result;
   result.warning =
       "The model could not be mended piece by piece and was wrapped anew: its surface moved by up "
