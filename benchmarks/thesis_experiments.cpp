@@ -308,7 +308,8 @@ void compareBounds(const Sample& sample) {
   const Options options = optionsFor(sample);
   const Progress silent;
   ProgressBar bar(silent);
-  const Preparation prepared = prepare(testing::sampleMesh(sample.name), options, bar);
+  PreparedModel model(testing::sampleMesh(sample.name));
+  const Preparation prepared = prepare(model, {}, options, bar);
   const Foundation foundation = coarsen(prepared, options, bar);
   const Search found = search(prepared, foundation, options, bar);
   const BoundsTask task = boundsTask(found.task);

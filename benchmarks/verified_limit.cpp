@@ -115,8 +115,10 @@ std::optional<Levels> levelsOf(const TriangleMesh& mesh, double wall, const Case
   for (const double radius : {0.0, 0.03 * diagonal}) {
     if (radius > 0.0) options.radiusX = options.radiusY = radius;
     try {
-      const Preparation model(mesh, options, Resolution::Coarse, {});
-      return levelsOf(model, options, c);
+      const Progress silent;
+      ProgressBar bar(silent);
+      PreparedModel model(mesh);
+      return levelsOf(prepare(model, {}, options, bar), options, c);
     } catch (const InvalidInput&) {
     }
   }

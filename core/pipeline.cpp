@@ -15,17 +15,17 @@ namespace {
 
 /// Empty: another depth of the foot serves better, which is known from then on.
 /// \throw DefectiveSurface when the model is no solid
-std::optional<Result> hollowedOnFoot(const TriangleMesh& model, Known& known,
+std::optional<Result> hollowedOnFoot(PreparedModel& model, std::optional<double>& footDepth,
                                      const Options& options, ProgressBar& bar) {
   // A solid that stands upright on its contact area, diagonal 1, and what it is to do.
-  const Preparation prepared = prepare(model, options, bar, Resolution::Coarse, known);
+  const Preparation prepared = prepare(model, footDepth, options, bar);
   // What moves inwards, its skeleton and harmonics; the best that any cavity could do.
   const Foundation foundation = coarsen(prepared, options, bar);
   // The foot was cut as little as it takes to stand at all: deeper, where that lets a cavity reach
   // the goal.
-  if (!known.footDepth) {
-    known.footDepth = depthOfBetterFoot(prepared, foundation, options);
-    if (known.footDepth) return std::nullopt;
+  if (!footDepth) {
+    footDepth = depthOfBetterFoot(prepared, foundation, options);
+    if (footDepth) return std::nullopt;
   }
   // Offsets that serve the goal best, within bounds that close in until nothing crosses; where they
   // fall short, what lies behind the walls on one side of the best quadric.
@@ -39,45 +39,39 @@ std::optional<Result> hollowedOnFoot(const TriangleMesh& model, Known& known,
 }
 
 /// \throw DefectiveSurface when the model is no solid
-Result hollowed(const TriangleMesh& model, Known known, const Options& options, ProgressBar& bar) {
-  std::optional<Result> result = hollowedOnFoot(model, known, options, bar);
-  if (!result) result = hollowedOnFoot(model, known, options, bar);
+Result hollowed(PreparedModel& model, const Options& options, ProgressBar& bar) {
+  std::optional<double> footDepth;
+  std::optional<Result> result = hollowedOnFoot(model, footDepth, options, bar);
+  if (!result) result = hollowedOnFoot(model, footDepth, options, bar);
   return *std::move(result);
 }
 
 /// A model that is no solid is mended first.
-Result hollowedOrMended(const TriangleMesh& model, const Options& options, ProgressBar& bar) {
-  std::string defect;
-  try {
-    return hollowed(model, {}, options, bar);
-  } catch (const DefectiveSurface& surface) {
-    if (!options.mend) throw;
-    defect = surface.what();
+Result hollowedOrMended(PreparedModel& model, const Options& options, ProgressBar& bar) {
+  if (model.defect(options) == nullptr) {
+    try {
+      return hollowed(model, options, bar);
+    } catch (const DefectiveSurface& surface) {
+      if (!options.mend) throw;
+      model.noteDefect(options, surface.what());
+    }
   }
   try {
-    return hollowed(model, {mend(model, options, bar), {}}, options, bar);
+    return hollowed(model, options, bar);
   } catch (const DefectiveSurface&) {
-    throw DefectiveSurface(defect); // of the given model, which the user knows
+    throw DefectiveSurface(*model.defect(options)); // of the given model, which the user knows
   }
 }
 
-Result run(const TriangleMesh& model, const Options& options, const Progress& progress) {
+Result runOn(PreparedModel& model, const Options& options, ProgressBar& bar) {
   const Stopwatch total;
   const ThreadTeam team;
-  ProgressBar bar(progress);
-  if (!options.printFile.empty()) requireWritable(options.printFile);
-  Result result = hollowedOrMended(model, options, bar);
-  result.report.add("seconds_total", total.seconds());
-  bar.show(100, "Done");
-  return result;
-}
-
-} // namespace
-
-Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
-                              const Progress& progress) {
   try {
-    return run(model, options, progress);
+    if (!options.printFile.empty()) requireWritable(options.printFile);
+    Result result = hollowedOrMended(model, options, bar);
+    result.report.add("seconds_total", total.seconds());
+    bar.show(100, "Done");
+    return result;
   } catch (const std::logic_error& failure) {
     // Of CGAL, whose words do not say what to do.
     throw std::runtime_error(std::string("This mesh is too uneven to be calculated with: use "
@@ -85,6 +79,25 @@ Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
                                          "again. (") +
                              failure.what() + ")");
   }
+}
+
+} // namespace
+
+Model::Model(TriangleMesh model) : prepared_(std::make_unique<PreparedModel>(std::move(model))) {}
+
+Model::~Model() = default;
+
+Result Model::run(const Options& options, const Progress& progress) {
+  const std::lock_guard lock(running_);
+  ProgressBar bar(progress);
+  std::optional<Result> result;
+  interruptibly([&] { bar.showAgain(); }, [&] { result.emplace(runOn(*prepared_, options, bar)); });
+  return *std::move(result);
+}
+
+Result optimizeMassProperties(TriangleMesh model, const Options& options,
+                              const Progress& progress) {
+  return Model(std::move(model)).run(options, progress);
 }
 
 } // namespace massprops

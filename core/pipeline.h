@@ -7,11 +7,14 @@
 #include "core/base/types.h"
 
 #include <functional>
+#include <memory>
+#include <mutex>
 #include <optional>
 
 namespace massprops {
 
-/// Called from the calling thread with 0 ≤ percent ≤ 100, never decreasing, and a short stage name.
+/// Called from the calling thread, often, with 0 ≤ percent ≤ 100, never decreasing, and a short
+/// stage name. What it throws ends the run at once and is thrown by it.
 using Progress = std::function<void(int percent, const char* stage)>;
 
 struct Result {
@@ -41,7 +44,30 @@ struct Result {
 /// \throw InvalidInput when the model is not such a surface or an option is absurd;
 /// std::runtime_error when a stage fails on it, with what to do about it. A goal out of
 /// reach is no error: it is in the report.
-Result optimizeMassProperties(const TriangleMesh& model, const Options& options,
+Result optimizeMassProperties(TriangleMesh model, const Options& options,
                               const Progress& progress = {});
+
+class PreparedModel;
+
+/// A model for several runs. What the options of a run have in common with those of the last one is
+/// not found out again: the solid and its tree for another goal or wall, where a cavity may be for
+/// another goal with the same wall, skeleton and harmonics for any.
+class Model {
+public:
+  /// As above.
+  explicit Model(TriangleMesh model);
+  ~Model();
+  Model(const Model&) = delete;
+  Model& operator=(const Model&) = delete;
+
+  /// The same, byte for byte but for times, as the first run on the model; one at a time, others
+  /// wait. \pre `options.representable` rounds alike in all runs. \throw as above; the model can
+  /// be used again
+  Result run(const Options& options, const Progress& progress = {});
+
+private:
+  std::mutex running_;
+  std::unique_ptr<PreparedModel> prepared_;
+};
 
 } // namespace massprops

@@ -34,9 +34,14 @@ CavityResult carriedCavity(const Preparation& model, const Possible& possible,
                            const Options& options, CavityTask task) {
   constexpr int kRounds = 4; // columns are put below what hangs down in triangles nevertheless
   const OverhangWishes wishes = overhangWishes(model.posed, options);
-  const PrintableTask printing{*model.goal,     options.weights, model.solidMoments,
-                               possible.states, possible.set,    possible.region,
-                               kCells,          wishes};
+  const PrintableTask printing{*model.goal,
+                               options.weights,
+                               model.solidMoments,
+                               possible.states,
+                               possible.room->set,
+                               possible.room->region,
+                               kCells,
+                               wishes};
   CavityResult best;
   std::size_t fewest = 0;
   SearchEffort effort;
@@ -44,7 +49,7 @@ CavityResult carriedCavity(const Preparation& model, const Possible& possible,
   std::optional<Printable> found = printable(printing, possible.bound);
   for (int round = 0; round < kRounds; ++round) {
     task.bound = found->bound;
-    CavityResult cavity = bestPossibleCavity(task, possible.set, found->region);
+    CavityResult cavity = bestPossibleCavity(task, possible.room->set, found->region);
     effort += cavity.effort;
     const bool isFound = cavity.status == CavityStatus::Found;
     const std::vector<Vec3> tips =

@@ -37,7 +37,7 @@ Result deliver(const Preparation& model, const Foundation& foundation, const Sea
   bar.show(kFound, "Report");
   Result result;
   Delivery delivery =
-      deliver(model.solid, model.posed, found.task, found.cavity, foundation.coarse.vertexOf,
+      deliver(model.solid, model.posed, found.task, found.cavity, foundation.coarse->vertexOf,
               [&](const Points& points) { return representable(options, points); });
   result.inner = std::move(delivery.inner);
   result.innerWall = std::move(delivery.innerWall);
@@ -51,14 +51,12 @@ Result deliver(const Preparation& model, const Foundation& foundation, const Sea
 
 Report report(const Preparation& model, const Foundation& foundation, const Search& found,
               const Options& options) {
-  const Coarsening& coarse = foundation.coarse;
+  const Coarsening& coarse = *foundation.coarse;
   Stages stages;
   stages.repairs = model.solid.repairs();
   if (found.cavity.status != CavityStatus::Found) stages.repairs.replacedCavities = 0; // they stay
   if (model.keptSolidTree && found.cavity.status == CavityStatus::Found) {
-    const TriangleTree surface(model.posed.vertices, model.surface.faces(),
-                               TriangleTree::Order::Spatial);
-    stages.leastWall = leastDistance(model.posed, found.cavity, surface);
+    stages.leastWall = leastDistance(model.posed, found.cavity, model.body.surface);
     stages.solidDepth = leastDistance(model.posed, found.cavity, *model.keptSolidTree);
   }
   if (options.overhangAngle > 0.0 && found.cavity.status == CavityStatus::Found) {
@@ -112,7 +110,7 @@ void draw(const Preparation& model, const Foundation& foundation, const Search& 
     return;
   }
   if (isBestPossible(options, model.posed.open.has_value())) return;
-  const Coarsening& coarse = foundation.coarse;
+  const Coarsening& coarse = *foundation.coarse;
   ColouredMesh& skeleton = result.picture->skeleton;
   skeleton = skeletonMarks(coarse.moving->carrier.mesh, coarse.skeleton);
   skeleton.mesh.vertices = toModel(model.posed.frame, skeleton.mesh.vertices);

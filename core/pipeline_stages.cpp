@@ -1,7 +1,6 @@
 #include "core/pipeline_stages.h"
 
 #include "core/answer/host_rounding.h"
-#include "core/base/option_pairs.h"
 #include "core/base/parallel.h"
 #include "core/base/tolerances.h"
 #include "core/best/best_cavity.h"
@@ -9,7 +8,6 @@
 #include "core/goals/objective.h"
 #include "core/goals/registry.h"
 #include "core/model/frame.h"
-#include "core/model/mending.h"
 #include "core/optimum/foot_depth.h"
 #include "core/overhang/printable_bound.h"
 #include "core/reduced/hollow_body.h"
@@ -29,32 +27,23 @@ bool moves(const Options& options) {
   return options.outerUpperBound > 0.0;
 }
 
-/// The checked model, and what it stands on.
-Footing stand(Solid solid, const Options& options, const std::optional<double>& depth) {
-  requireSensible(options, solid.diagonal());
-  requireEnoughFunctions(options);
-  return onFoot(std::move(solid), options, depth);
-}
-
-PosedModel pose(const Footing& footing, const Options& options) {
-  PosedModel result = makePosedModel(footing.solid, options, footing.foot);
-  requireCompatible(options, result.open.has_value());
-  return result;
-}
-
 /// Crossings that nobody has looked for yet.
 void requireNoCrossings(const Preparation& model) {
+  PreparedBody& body = model.body;
+  if (body.isFreeOfCrossings) return;
   requireNoCrossings(model.solid, model.surface, roundOff(model.posed.frame));
+  body.isFreeOfCrossings = true;
 }
 
-/// The outer surface, and how far from these triangles the body stays solid.
-TriangleTree surfaceOf(const PosedModel& posed, const TriangleTree* keptSolid,
-                       const Options& options) {
-  TriangleTree surface(posed.vertices, posed.open ? posed.open->skin : posed.faces,
-                       TriangleTree::Order::Spatial);
-  if (keptSolid == nullptr) return surface;
+/// The outer surface, and how far from these triangles the body stays solid; null: only as far as
+/// the wall asks for.
+std::unique_ptr<const TriangleTree>
+surfaceKeepingOut(const TriangleTree* keptSolid, const PreparedBody& body, const Options& options) {
+  const PosedModel& posed = body.posed;
   const double depth = solidDepthOf(posed, options);
-  if (depth > posed.wall) surface.keepOut(*keptSolid, depth - posed.wall);
+  if (keptSolid == nullptr || depth <= posed.wall) return nullptr;
+  auto surface = std::make_unique<TriangleTree>(body.surface);
+  surface->keepOut(*keptSolid, depth - posed.wall);
   return surface;
 }
 
@@ -90,7 +79,7 @@ CavityTask taskOf(const Goal& goal, const Preparation& model, const Foundation& 
                   const Options& options) {
   const PosedModel& posed = model.posed;
   CavityTask task{model.surface, goal, {}, options.weights};
-  task.model.surface = foundation.coarse.moving;
+  task.model.surface = foundation.coarse->moving;
   task.model.fillings = fillingsSeenBy(options);
   task.model.solidMoments = model.solidMoments;
   task.model.isOpen = posed.open.has_value();
@@ -111,8 +100,8 @@ CavityTask taskOf(const Goal& goal, const Preparation& model, const Foundation& 
 CavityTask offsetTask(const Goal& goal, const Preparation& model, const Foundation& foundation,
                       const Options& options) {
   const PosedModel& posed = model.posed;
-  const MovingSurface& moving = *foundation.coarse.moving;
-  const Points& axis = foundation.coarse.axis;
+  const MovingSurface& moving = *foundation.coarse->moving;
+  const Points& axis = foundation.coarse->axis;
   OffsetField field =
       posed.open
           ? offsetField(moving.vertices, posed.open->skin,
@@ -238,17 +227,18 @@ void searchFiner(const Preparation& model, const Possible& possible, const Optio
   constexpr double kHardlyFiner = 0.9; // is not worth it
   const double gap = gapOf(found);
   if (gap <= kEnough) return;
-  const double edge = possible.region.edge;
-  const auto border = static_cast<double>(possible.region.border.size());
+  const Room& room = *possible.room;
+  const double edge = room.region.edge;
+  const auto border = static_cast<double>(room.region.border.size());
   const double finer =
       edge * std::max({std::sqrt(kWanted / gap), kFinest, std::sqrt(border / kMost)});
   if (finer > kHardlyFiner * edge) return;
-  const FeasibleRegion region = feasibleRegion(possible.set, finer);
+  const FeasibleRegion region = feasibleRegion(room.set, finer);
   const AdmissibleCells reached = admissibleCells(region, Admissible::Reached, kCells);
   CavityTask task = found.task;
   task.bound = withBodyWithin(reached, *found.task.bound, *model.goal, options.weights,
                               model.solidMoments, possible.states);
-  CavityResult cavity = bestPossibleCavity(task, possible.set, region);
+  CavityResult cavity = bestPossibleCavity(task, room.set, region);
   cavity.effort += found.cavity.effort;
   if (!servesBetter(task, cavity, found.cavity)) return;
   found.cavity = std::move(cavity);
@@ -266,20 +256,69 @@ Search searchBest(const Preparation& model, const Foundation& foundation, const 
     return result;
   }
   const Possible& possible = *foundation.possible;
+  const Room& room = *possible.room;
   takeLevels(possible.bound, result);
   if (options.overhangAngle > 0.0) {
     result.cavity = carriedCavity(model, possible, options, result.task);
     return result;
   }
   std::optional<CavityResult> walled =
-      uniformlyWalledCavity(result.task, possible.set, possible.cells, possible.region.edge);
+      uniformlyWalledCavity(result.task, room.set, room.cells, room.region.edge);
   if (walled) {
     result.cavity = *std::move(walled);
     return result;
   }
-  result.cavity = bestPossibleCavity(result.task, possible.set, possible.region);
+  result.cavity = bestPossibleCavity(result.task, room.set, room.region);
   searchFiner(model, possible, options, result);
   return result;
+}
+
+/// Behind the wall of a surface. `rounding`: the step between positions that can be delivered, a
+/// length; `cubes`: how large, of those that a cavity is found with.
+Room roomBehind(const TriangleTree& surface, double wall, double rounding, double cubes) {
+  constexpr double kSteps = 10.0;      // of rounding, that do not fold the triangles of a cube
+  constexpr double kRoundedOff = 1e-5; // of the wall
+  const FeasibleSet set{surface, (1.0 + kRoundedOff) * wall, wall};
+  const double edge = cubes * edgeFor(set);
+  FeasibleRegion region = feasibleRegion(set, std::max(edge, kSteps * rounding));
+  AdmissibleCells cells = admissibleCells(region, Admissible::BehindWalls, kCells);
+  AdmissibleCells reached = admissibleCells(region, Admissible::Reached, kCells);
+  return {set, std::move(region), std::move(cells), std::move(reached)};
+}
+
+/// Kept for who asks for the same wall again.
+std::shared_ptr<const Room> roomOf(const Preparation& model, const Options& options) {
+  const double wall = model.posed.wall;
+  const double rounding =
+      roundingStep(options.representable, model.solid.vertices()) / model.posed.frame.length;
+  constexpr double kCarrying = 0.7; // what carries a ceiling is narrow
+  constexpr double kOfCells = 1.5;  // where no contour is made: 0.2 % of the limit
+  const double cubes = !isBestPossible(options, false) ? kOfCells
+                       : options.overhangAngle > 0.0   ? kCarrying
+                                                       : 1.0;
+  const auto make = [&] { return roomBehind(model.surface, wall, rounding, cubes); };
+  if (model.ownSurface) return std::make_shared<const Room>(make());
+  return model.body.room.get({wall, rounding, cubes}, make);
+}
+
+/// Empty: the wall leaves no room.
+std::optional<Possible> possibleWithin(const Preparation& model, const Options& options) {
+  std::shared_ptr<const Room> room = roomOf(model, options);
+  const AdmissibleCells& cells = room->cells;
+  const AdmissibleCells& reached = room->reached;
+  if (cells.rows() == 0) return std::nullopt;
+  Fillings states = fillingsSeenBy(options);
+  if (states.size() > 1) {
+    const double density = states.back().density;
+    for (const double height : layerHeights(room->region, kCells))
+      states.push_back({density, height});
+  }
+  const Goal& goal = *model.goal;
+  const Weights& weights = options.weights;
+  OptimalBound bound = optimalBound(goal, weights, model.solidMoments, states, cells);
+  if (reached.rows() != cells.rows() || reached.col(0).sum() < cells.col(0).sum())
+    bound = withBodyWithin(reached, std::move(bound), goal, weights, model.solidMoments, states);
+  return Possible{std::move(room), std::move(bound), std::move(states)};
 }
 
 /// A thinner wall, behind which a ball as wide as it fits; 0 when none was found.
@@ -304,87 +343,32 @@ bool isBestPossible(const Options& options, bool isOpen) {
   return !isOpen && !moves(options);
 }
 
-std::optional<Possible> possibleWithin(const TriangleTree& surface, double wall, double rounding,
-                                       const Goal& goal, const Moments& solid,
-                                       const Options& options) {
-  constexpr double kSteps = 10.0;      // of rounding, that do not fold the triangles of a cube
-  constexpr double kRoundedOff = 1e-5; // of the wall
-  constexpr double kCarrying = 0.7;    // as large: what carries a ceiling is narrow
-  constexpr double kOfCells = 1.5;     // as large, where no contour is made: 0.2 % of the limit
-  const FeasibleSet set{surface, (1.0 + kRoundedOff) * wall, wall};
-  const double factor = !isBestPossible(options, false) ? kOfCells
-                        : options.overhangAngle > 0.0   ? kCarrying
-                                                        : 1.0;
-  const double edge = factor * edgeFor(set);
-  FeasibleRegion region = feasibleRegion(set, std::max(edge, kSteps * rounding));
-  AdmissibleCells cells = admissibleCells(region, Admissible::BehindWalls, kCells);
-  if (cells.rows() == 0) return std::nullopt;
-  const AdmissibleCells reached = admissibleCells(region, Admissible::Reached, kCells);
-  Fillings states = fillingsSeenBy(options);
-  if (states.size() > 1) {
-    const double density = states.back().density;
-    for (const double height : layerHeights(region, kCells)) states.push_back({density, height});
-  }
-  const Weights& weights = options.weights;
-  OptimalBound bound = optimalBound(goal, weights, solid, states, cells);
-  if (reached.rows() != cells.rows() || reached.col(0).sum() < cells.col(0).sum())
-    bound = withBodyWithin(reached, std::move(bound), goal, weights, solid, states);
-  return Possible{set, std::move(region), std::move(cells), std::move(bound), std::move(states)};
-}
-
 double solidDepthOf(const PosedModel& posed, const Options& options) {
   constexpr double kWalls = 4.0;
   return options.solidDepth ? *options.solidDepth / posed.frame.length + roundOff(posed.frame)
                             : kWalls * posed.wall;
 }
 
-Preparation::Preparation(const TriangleMesh& model, const Options& options, Resolution resolution,
-                         const Known& known)
-    : footing(stand(known.mended
-                        ? *known.mended
-                        : makeSolid(model, options.openSurface, rotationToUp(options.upAxis)),
-                    options, known.footDepth)),
-      solid(footing.solid),
-      posed(pose(footing, options)), keptSolid{toWorking(posed.frame, options.keptSolid.vertices),
-                                               options.keptSolid.faces},
+Preparation::Preparation(PreparedBody& preparedBody, const Options& options, const Stopwatch& time)
+    : body(preparedBody), solid(*body.solid), posed(body.posed),
+      solidMoments(body.solidMoments), keptSolid{toWorking(posed.frame, options.keptSolid.vertices),
+                                                 options.keptSolid.faces},
       keptSolidTree(keptSolid.faces.rows() > 0
                         ? std::make_unique<const TriangleTree>(keptSolid.vertices, keptSolid.faces)
                         : nullptr),
-      surface(surfaceOf(posed, keptSolidTree.get(), options)),
-      solidMoments(moments(posed.vertices, posed.faces)),
-      goal(makeGoal(options, posed, posed.vertices)),
-      mayCopy(resolution == Resolution::Coarse && !moves(options) && !posed.open),
-      isCarrierCoarse(resolution == Resolution::Coarse) {}
+      ownSurface(surfaceKeepingOut(keptSolidTree.get(), body, options)),
+      surface(ownSurface ? *ownSurface : body.surface),
+      goal(makeGoal(options, posed, posed.vertices)), seconds(time.seconds()) {}
 
-Preparation prepare(const TriangleMesh& model, const Options& options, ProgressBar& bar,
-                    Resolution resolution, const Known& known) {
+Preparation prepare(PreparedModel& model, const std::optional<double>& footDepth,
+                    const Options& options, ProgressBar& bar) {
   bar.show(0, "Checking the model");
-  return {model, options, resolution, known};
+  const Stopwatch time;
+  return {model.body(options, footDepth, [&] { bar.show(0, "Mending the model"); }), options, time};
 }
 
-/// In single precision where that is far finer than what mending merges: so the same file becomes
-/// the same solid whatever the host stores.
-Points roundedForMending(const Points& points, bool inFloats, const Options& options) {
-  return representable(options, inFloats ? Points(points.cast<float>().cast<double>()) : points);
-}
-
-Solid mend(const TriangleMesh& model, const Options& options, ProgressBar& bar) {
-  bar.show(0, "Mending the model");
-  MendingTask task;
-  const bool isWallGiven = options.innerLowerBound && *options.innerLowerBound > 0.0;
-  task.wall = isWallGiven ? *options.innerLowerBound : kDefaultWall * diagonalOf(model.vertices);
-  task.rotation = rotationToUp(options.upAxis);
-  task.keepsOpenings = options.openSurface;
-  const bool inFloats = isFloatFineFor(model.vertices);
-  task.representable = [&](const Points& points) {
-    return roundedForMending(points, inFloats, options);
-  };
-  std::optional<Solid> solid = mended({task.representable(model.vertices), model.faces}, task);
-  if (!solid) throw DefectiveSurface("The surface cannot be mended.");
-  return *std::move(solid);
-}
-
-Foundation coarsen(const Preparation& model, const Options& options, ProgressBar& bar) {
+Foundation coarsen(const Preparation& model, const Options& options, ProgressBar& bar,
+                   Resolution resolution) {
   Foundation result;
   const auto checkCrossings = [&] {
     const Stopwatch time;
@@ -394,25 +378,29 @@ Foundation coarsen(const Preparation& model, const Options& options, ProgressBar
   const auto findBound = [&] {
     if (moves(options) || model.posed.open) return;
     const Stopwatch time;
-    std::optional<Possible> possible = possibleWithin(
-        model.surface, model.posed.wall,
-        roundingStep(options.representable, model.solid.vertices()) / model.posed.frame.length,
-        *model.goal, model.solidMoments, options);
+    std::optional<Possible> possible = possibleWithin(model, options);
     if (possible) result.possible.emplace(*std::move(possible));
     result.secondsBound = time.seconds();
   };
   const auto coarsenModel = [&] {
     bar.show(model.schedule.copy, "Coarse copies");
-    const CoarseningOptions wanted{options.basisSize, model.mayCopy, model.isCarrierCoarse,
+    const bool isCoarse = resolution == Resolution::Coarse;
+    const bool mayCopy = isCoarse && !moves(options) && !model.posed.open;
+    const CoarseningOptions wanted{options.basisSize, mayCopy, isCoarse,
                                    options.weights.smoothness > 0.0};
-    result.coarse = coarsen(
-        model.posed, wanted,
-        [&] { bar.show(model.schedule.skeleton, "Mean curvature skeleton and harmonic basis"); },
-        checkCrossings);
+    const CopyKey key(wanted.basisSize, wanted.mayCopy, wanted.isCarrierCoarse, wanted.isSmooth);
+    result.coarse = model.body.copies.get(key, [&] {
+      return coarsen(
+          model.posed, wanted,
+          [&] { bar.show(model.schedule.skeleton, "Mean curvature skeleton and harmonic basis"); },
+          checkCrossings);
+    });
   };
   try {
     if (isBestPossible(options, model.posed.open.has_value())) {
-      result.coarse.moving = std::make_shared<const MovingSurface>();
+      Coarsening nothing;
+      nothing.moving = std::make_shared<const MovingSurface>();
+      result.coarse = std::make_shared<const Coarsening>(std::move(nothing));
       bar.show(Schedule::kLimit, "Best of all cavities");
       inParallel(findBound, checkCrossings);
       return result;
@@ -433,15 +421,15 @@ Foundation coarsen(const Preparation& model, const Options& options, ProgressBar
 
 std::optional<double> depthOfBetterFoot(const Preparation& model, const Foundation& foundation,
                                         const Options& options) {
-  if (!model.footing.lowest || moves(options) || model.posed.open) return {};
+  if (!model.body.lowest || moves(options) || model.posed.open) return {};
   if (foundation.possible && isAmple(reserveOf(foundation.possible->bound))) return {};
   AdmissibleCells cells(0, 10);
   Fillings states = fillingsSeenBy(options);
   if (foundation.possible) {
-    cells = foundation.possible->cells;
+    cells = foundation.possible->room->cells;
     states = foundation.possible->states;
   }
-  return betterFootDepth(*model.footing.lowest, model.posed, cells, states, options);
+  return betterFootDepth(*model.body.lowest, model.posed, cells, states, options);
 }
 
 Search search(const Preparation& model, const Foundation& foundation, const Options& options,

@@ -2,19 +2,17 @@
 #pragma once
 
 #include "core/answer/print_margins.h"
+#include "core/base/interruption.h"
 #include "core/base/options.h"
 #include "core/base/stopwatch.h"
 #include "core/drill/drainage.h"
 #include "core/goals/goal.h"
 #include "core/goals/verdict.h"
-#include "core/model/foot.h"
-#include "core/model/posed_model.h"
-#include "core/model/solid.h"
-#include "core/optimum/admissible_cells.h"
 #include "core/optimum/certificate.h"
 #include "core/optimum/optimal_bound.h"
 #include "core/overhang/ceiling.h"
 #include "core/pipeline.h"
+#include "core/prepared_model.h"
 #include "core/query/triangle_tree.h"
 #include "core/reduced/cavity_search.h"
 #include "core/reduced/moving_surface.h"
@@ -29,14 +27,19 @@
 
 namespace massprops {
 
-/// Reports to the caller how far the run has come; never goes back.
+/// Reports to the caller how far the run has come, which may then end it; never goes back.
 class ProgressBar {
 public:
   explicit ProgressBar(const Progress& progress) : progress_(progress) {}
 
   void show(int percent, const char* stage) {
     percent_ = std::max(percent_, percent);
-    if (progress_) progress_(percent_, stage);
+    stage_ = stage;
+    askNow();
+  }
+  /// What was shown last, once more.
+  void showAgain() const {
+    if (progress_) progress_(percent_, stage_);
   }
 
   /// The share of a stage that takes the bar from one percentage to another.
@@ -47,52 +50,40 @@ public:
 private:
   const Progress& progress_;
   int percent_ = 0;
+  const char* stage_ = "";
 };
 
 /// What moves inwards, and what carries skeleton and basis: coarse copies, as far as the options
 /// allow; or the whole surface, slow, which the copies are measured against.
 enum class Resolution { Coarse, Full };
 
-/// What is known of the model from before.
-struct Known {
-  std::optional<Solid> mended = {};     ///< what was made of it; empty: it needs no mending
-  std::optional<double> footDepth = {}; ///< found to be better than the least
-};
-
-/// The model, checked and put upright, and what follows from it alone. Neither copied nor moved,
-/// for its parts refer to each other.
+/// The model, checked and put upright, and what it is to do. Neither copied nor moved, for its
+/// parts refer to each other.
 struct Preparation {
-  Preparation(const TriangleMesh& model, const Options& options, Resolution resolution,
-              const Known& known);
+  Preparation(PreparedBody& preparedBody, const Options& options, const Stopwatch& time);
   Preparation(const Preparation&) = delete;
   Preparation& operator=(const Preparation&) = delete;
 
-  const Stopwatch time;
-  const Footing footing; ///< with a foot, if it needs one
+  PreparedBody& body;
   const Solid& solid;
-  const PosedModel posed;
+  const PosedModel& posed;
+  const Moments& solidMoments;                             ///< of the outer surface, working frame
   const TriangleMesh keptSolid;                            ///< working frame
   const std::unique_ptr<const TriangleTree> keptSolidTree; ///< null: there are none
-  /// The outer surface, working frame, which keeps out what lies too near to what stays solid.
-  const TriangleTree surface;
-  const Moments solidMoments; ///< of the outer surface, working frame
+  /// The outer surface where it keeps out what lies too near to what stays solid; else null.
+  const std::unique_ptr<const TriangleTree> ownSurface;
+  const TriangleTree& surface; ///< the outer one, working frame
   const std::unique_ptr<Goal> goal;
-  const bool mayCopy;         ///< whether it may be a copy that moves inwards
-  const bool isCarrierCoarse; ///< whether a coarser one carries skeleton and basis
   const Schedule schedule;
-  const double seconds = time.seconds(); ///< all of this took
+  const double seconds; ///< all of this took
 };
 
 /// How far from selected faces all stays solid; working length.
 double solidDepthOf(const PosedModel& posed, const Options& options);
 
-/// \throw DefectiveSurface when the model is no solid; InvalidInput when an option is absurd
-Preparation prepare(const TriangleMesh& model, const Options& options, ProgressBar& bar,
-                    Resolution resolution = Resolution::Coarse, const Known& known = {});
-
-/// The model as a solid. \throw DefectiveSurface where it cannot be mended; InvalidInput as well
-/// where it has an opening that is no defect
-Solid mend(const TriangleMesh& model, const Options& options, ProgressBar& bar);
+/// \throw as `PreparedModel::body`
+Preparation prepare(PreparedModel& model, const std::optional<double>& footDepth,
+                    const Options& options, ProgressBar& bar);
 
 /// Whether what is delivered is the best possible cavity: where it is defined, for a closed surface
 /// that stays; else the offset surface.
@@ -104,30 +95,23 @@ constexpr double kCells = 20000.0;
 
 /// The best of all cavities within an outer surface.
 struct Possible {
-  FeasibleSet set;
-  FeasibleRegion region;
-  AdmissibleCells cells; ///< all that lies behind the walls
-  OptimalBound bound;    ///< of these; its body is the best in what the ball reaches
+  std::shared_ptr<const Room> room;
+  OptimalBound bound; ///< of all cells; its body is the best in what the ball reaches
   /// In which it is to serve the goal: where there is more than one, with every level of contents
   /// between the cells.
   Fillings states;
 };
 
-/// Empty: the wall leaves no room. `rounding`: the step between positions that can be delivered, a
-/// length; `solid`: moments of the body within the surface.
-std::optional<Possible> possibleWithin(const TriangleTree& surface, double wall, double rounding,
-                                       const Goal& goal, const Moments& solid,
-                                       const Options& options);
-
 /// What moves inwards, if anything does, and what the best of all cavities could do.
 struct Foundation {
-  Coarsening coarse;
+  std::shared_ptr<const Coarsening> coarse;
   std::optional<Possible> possible; ///< empty: there is no room, or the surface is open or moves
   double secondsBound = 0.0, secondsCrossings = 0.0;
 };
 
 /// \throw DefectiveSurface when the model crosses itself
-Foundation coarsen(const Preparation& model, const Options& options, ProgressBar& bar);
+Foundation coarsen(const Preparation& model, const Options& options, ProgressBar& bar,
+                   Resolution resolution = Resolution::Coarse);
 
 /// Where no cavity reaches the goal on the foot as it was cut: the depth of one on which a cavity
 /// does, or comes nearer to it. Empty: that foot is as good as any, or there is none.

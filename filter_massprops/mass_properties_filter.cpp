@@ -5,6 +5,7 @@
 #include "core/pipeline.h"
 #include "core/vcg_conversion.h"
 #include "filter_massprops/dialog_size.h"
+#include "filter_massprops/escape.h"
 #include "filter_massprops/parameters.h"
 #include "filter_massprops/pymeshlab_names.h"
 
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 using namespace massprops;
 
@@ -180,8 +182,12 @@ TriangleMesh selectedPart(const TriangleMesh& model, const std::vector<int>& fac
 
 Progress reporterTo(vcg::CallBackPos* callback) {
   if (callback == nullptr) return {};
-  return [callback](int percent, const char* stage) {
-    callback(percent, (std::string(stage) + "\n").c_str());
+  const std::shared_ptr<Escape> escape = inMeshLabsWindow() ? std::make_shared<Escape>() : nullptr;
+  return [callback, escape](int percent, const char* stage) {
+    const std::string shown = std::string(stage) + (escape ? " (Esc ends the run)\n" : "\n");
+    const bool goesOn = callback(percent, shown.c_str());
+    if (!goesOn || (escape && escape->isWanted()))
+      throw std::runtime_error("The run was ended: nothing was added to the document.");
   };
 }
 

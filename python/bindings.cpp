@@ -10,7 +10,6 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <exception>
 #include <optional>
 
 namespace py = pybind11;
@@ -63,32 +62,15 @@ Options optionsOf(const py::dict& given, double diagonal) {
   });
 }
 
-/// Calls back with the interpreter's lock, and ends the run where Python raises: an exception of
-/// the callback, or Ctrl-C.
-class PythonProgress {
-public:
-  explicit PythonProgress(py::object callback) : callback_(std::move(callback)) {}
-
-  void operator()(int percent, const char* stage) {
+/// Calls back with the interpreter's lock; throws where Python raises: an exception of the
+/// callback, or Ctrl-C.
+Progress reporterTo(const py::object& callback) {
+  return [&callback](int percent, const char* stage) {
     const py::gil_scoped_acquire lock;
-    try {
-      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-      if (!callback_.is_none()) callback_(percent, stage);
-    } catch (...) {
-      raised_ = std::current_exception();
-      throw;
-    }
-  }
-
-  /// With the lock.
-  void rethrow() const {
-    if (raised_) std::rethrow_exception(raised_);
-  }
-
-private:
-  py::object callback_;
-  std::exception_ptr raised_;
-};
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (!callback.is_none()) callback(percent, stage);
+  };
+}
 
 struct ReportToPython {
   template <class Value>
@@ -130,32 +112,38 @@ Points asFloats(const Points& points) {
   return points.cast<float>().cast<double>();
 }
 
-py::tuple hollow(Points vertices, const Faces& faces, const py::dict& parameters,
-                 const std::vector<int>& keptFaces, bool singlePrecision,
-                 const py::object& callback) {
-  if (singlePrecision) vertices = asFloats(vertices);
-  Options options = optionsOf(parameters, diagonalOf(vertices));
-  if (singlePrecision) options.representable = asFloats;
-  if (!keptFaces.empty()) {
-    options.keptSolid = submesh(vertices, faces(keptFaces, Eigen::all)).mesh;
+/// A model as Python's users have it.
+class PythonModel {
+public:
+  PythonModel(const Points& vertices, const Faces& faces, bool singlePrecision)
+      : mesh_{singlePrecision ? asFloats(vertices) : vertices, faces},
+        singlePrecision_(singlePrecision), model_(mesh_) {}
+
+  py::tuple hollow(const py::dict& parameters, const std::vector<int>& keptFaces,
+                   const py::object& callback) {
+    Options options = optionsOf(parameters, diagonalOf(mesh_.vertices));
+    if (singlePrecision_) options.representable = asFloats;
+    if (!keptFaces.empty()) {
+      options.keptSolid = submesh(mesh_.vertices, mesh_.faces(keptFaces, Eigen::all)).mesh;
+    }
+    Result result;
+    {
+      const py::gil_scoped_release unlocked;
+      result = model_.run(options, reporterTo(callback));
+    }
+    const auto orNone = [](const std::optional<TriangleMesh>& mesh) {
+      return mesh ? py::object(toPython(*mesh)) : py::object(py::none());
+    };
+    return py::make_tuple(toPython(result.inner), result.innerWall, orNone(result.outer),
+                          orNone(result.drilled), orNone(result.plugs), picturesOf(result),
+                          toPython(result.report));
   }
-  PythonProgress progress(callback);
-  Result result;
-  try {
-    const py::gil_scoped_release unlocked;
-    result = optimizeMassProperties({vertices, faces}, options, std::ref(progress));
-  } catch (...) {
-    progress.rethrow();
-    throw;
-  }
-  progress.rethrow();
-  const auto orNone = [](const std::optional<TriangleMesh>& mesh) {
-    return mesh ? py::object(toPython(*mesh)) : py::object(py::none());
-  };
-  return py::make_tuple(toPython(result.inner), result.innerWall, orNone(result.outer),
-                        orNone(result.drilled), orNone(result.plugs), picturesOf(result),
-                        toPython(result.report));
-}
+
+private:
+  TriangleMesh mesh_;
+  bool singlePrecision_;
+  Model model_;
+};
 
 const char* typeOf(ParameterKind kind) {
   switch (kind) {
@@ -203,7 +191,9 @@ py::list parameters() {
 PYBIND11_MODULE(_massprops, module) {
   py::register_exception<InvalidInput>(module, "InvalidInput", PyExc_ValueError);
   module.attr("__version__") = MASSPROPS_VERSION;
-  module.def("hollow", hollow);
+  py::class_<PythonModel>(module, "Model")
+      .def(py::init<const Points&, const Faces&, bool>())
+      .def("hollow", &PythonModel::hollow);
   module.def("parameters", parameters);
   module.def("set_thread_count", setThreadCount);
 }

@@ -1,5 +1,7 @@
 #include "core/base/parallel.h"
 
+#include "core/base/interruption.h"
+
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -37,6 +39,7 @@ enum class Waiting { Idle, Helping };
 struct Task {
   const std::function<void()>& run;
   int wanted; ///< helpers that may still join
+  Watch* watch = presentWatch();
   std::atomic<int> helping = 0;
   std::exception_ptr failure = nullptr;
 };
@@ -98,7 +101,7 @@ public:
     } else {
       waitAwake(isOver);
       std::unique_lock lock(mutex_);
-      changed_.wait(lock, isOver);
+      wait(lock, isOver);
     }
     if (failure || task.failure) std::rethrow_exception(failure ? failure : task.failure);
     return helpers - task.wanted;
@@ -113,12 +116,28 @@ private:
     --open_;
   }
 
+  /// Meanwhile the run may be ended; then its tasks soon are, so there is no less to wait for.
+  template <class Condition>
+  void wait(std::unique_lock<std::mutex>& lock, const Condition& isReady) {
+    constexpr std::chrono::milliseconds kAtOnce{20};
+    if (presentWatch() == nullptr) changed_.wait(lock, isReady);
+    while (!changed_.wait_for(lock, kAtOnce, isReady)) {
+      lock.unlock();
+      try {
+        checkpoint();
+      } catch (const Interrupted&) {
+        // Thrown again at the next one, after the wait.
+      }
+      lock.lock();
+    }
+  }
+
   /// Waits for a task and helps with it, or for the end; returns whether it was a task.
   template <class IsOver>
   bool helpUntil(const IsOver& isOver) {
     waitAwake([&] { return isOver() || open_ > 0; });
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return isOver() || !tasks_.empty(); });
+    wait(lock, [&] { return isOver() || !tasks_.empty(); });
     if (isOver()) return false;
     Task& task = *tasks_.front();
     ++task.helping;
@@ -126,6 +145,7 @@ private:
     lock.unlock();
     std::exception_ptr failure;
     try {
+      const Watched watched(task.watch);
       task.run();
     } catch (...) {
       failure = std::current_exception();
@@ -173,6 +193,7 @@ void forChunks(Eigen::Index count, Eigen::Index length,
                const std::function<void(const Chunk&)>& body) {
   const Eigen::Index chunks = chunkCount(count, length);
   const auto call = [&](Eigen::Index c) {
+    checkpoint();
     body({c * length, std::min(count, (c + 1) * length), c});
   };
   const auto workers = static_cast<int>(std::min<Eigen::Index>(threadCount(), chunks));

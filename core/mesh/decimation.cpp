@@ -1,5 +1,6 @@
 #include "core/mesh/decimation.h"
 
+#include "core/base/interruption.h"
 #include "core/base/parallel.h"
 #include "core/base/triangle.h"
 #include "core/mesh/components.h"
@@ -219,6 +220,7 @@ private:
       }
     }
     std::sort(half.candidates.begin(), half.candidates.end());
+    if (!half.candidates.empty()) checkpoint();
     for (const auto& [cost, h] : half.candidates) {
       if (!isLegal(v, h, half)) continue;
       collapse(v, h, half.fan);

@@ -1,5 +1,6 @@
 #include "core/mesh/hole_filling.h"
 
+#include "core/base/interruption.h"
 #include "core/mesh/cgal_mesh.h"
 #include "core/mesh/degenerate_faces.h"
 
@@ -47,6 +48,7 @@ TriangleMesh withOpeningsFilled(const TriangleMesh& open) {
   std::vector<Mesh::Halfedge_index> loops;
   Processing::extract_boundary_cycles(mesh, std::back_inserter(loops));
   for (const Mesh::Halfedge_index loop : loops) {
+    checkpoint();
     std::vector<Mesh::Face_index> lid;
     // Most openings are flat; their triangulation in the plane has no flat triangles.
     Processing::triangulate_hole(mesh, loop, std::back_inserter(lid),

@@ -1,5 +1,6 @@
 #include "core/model/closed_holes.h"
 
+#include "core/base/interruption.h"
 #include "core/base/triangle.h"
 #include "core/mesh/cgal_mesh.h"
 #include "core/mesh/components.h"
@@ -135,6 +136,7 @@ void fill(Mesh& mesh, Loop& loop) {
 TriangleMesh filled(const TriangleMesh& mesh, std::vector<Loop>& loops, const MendingTask& task) {
   auto surface = surfaceMesh(mesh.vertices, mesh.faces);
   for (Loop& loop : loops) {
+    checkpoint();
     loop.patch.clear();
     if (!loop.isOpen) fill(surface, loop);
   }

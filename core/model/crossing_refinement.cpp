@@ -1,5 +1,6 @@
 #include "core/model/crossing_refinement.h"
 
+#include "core/base/interruption.h"
 #include "core/mesh/components.h"
 #include "core/query/triangle_tree.h"
 
@@ -84,7 +85,10 @@ public:
     }
     planes_.resize(crossing_.size());
     for (std::size_t i = 0; i < crossing_.size(); ++i) planes_[i] = planeOf(crossing_[i]);
-    for (std::size_t i = 0; i < crossing_.size(); ++i) cutFace(i, others[i]);
+    for (std::size_t i = 0; i < crossing_.size(); ++i) {
+      checkpoint();
+      cutFace(i, others[i]);
+    }
     TriangleMesh result{Points(static_cast<Eigen::Index>(points_.size()), 3),
                         Faces(static_cast<Eigen::Index>(faces_.size()), 3)};
     for (std::size_t i = 0; i < points_.size(); ++i) {

@@ -250,8 +250,15 @@ bool mayHaveFoot(const Options& options) {
          !options.radiusY;
 }
 
+bool needsFoot(const Solid& solid, const Options& options) {
+  if (!mayHaveFoot(options)) return false;
+  return options.foot == FootCut::Given ||
+         !holdsCircle(groundContact(Upright(solid, options).vertices, {}).area,
+                      kFootInradius * solid.diagonal());
+}
+
 Footing onFoot(Solid solid, const Options& options, const std::optional<double>& wanted) {
-  if (!mayHaveFoot(options)) return {std::move(solid), {}, {}};
+  if (!needsFoot(solid, options)) return {std::move(solid), {}, {}};
   const Upright upright(solid, options);
   if (options.foot == FootCut::Given) {
     solid = withoutCrossings(std::move(solid));
@@ -259,7 +266,6 @@ Footing onFoot(Solid solid, const Options& options, const std::optional<double>&
   }
   const double radius = kFootInradius * solid.diagonal();
   const ContactArea contacts = groundContact(upright.vertices, {}).area;
-  if (holdsCircle(contacts, radius)) return {std::move(solid), {}, {}};
   solid = withoutCrossings(std::move(solid));
   const double most = std::min(kDeepest * upright.height, roomBelow(solid, upright));
   if (!(most > 0.0)) return {std::move(solid), {}, {}};

@@ -48,13 +48,16 @@ struct Footing {
 /// Whether the goal is one of standing on the ground contacts, and a foot is not ruled out.
 bool mayHaveFoot(const Options& options);
 
-/// The solid cut flat: where it is asked for, or where its ground contacts hold no circle with a
-/// radius of a hundredth of the diagonal, by the least depth for which they do or else the depth
-/// for which the circle is largest, a hundredth of the height at most; by `wanted` where that has
-/// been found out to be better. Existing cavities that the cut would open count as filled; the
-/// openings of an open surface are not touched. Bodies stay in one piece. What cannot be cut stays.
-/// \throw InvalidInput when a depth is given that it cannot be cut by; DefectiveSurface when it
-/// crosses itself
+/// Whether it is to be cut: because that is asked for, or because its ground contacts hold no
+/// circle with a radius of a hundredth of the diagonal.
+bool needsFoot(const Solid& solid, const Options& options);
+
+/// The solid cut flat: by the depth that is given, or by the least for which its ground contacts
+/// hold such a circle or else the depth for which the circle is largest, a hundredth of the height
+/// at most; by `wanted` where that has been found out to be better. Existing cavities that the cut
+/// would open count as filled; the openings of an open surface are not touched. Bodies stay in one
+/// piece. What cannot be cut stays. \throw InvalidInput when a depth is given that it cannot be cut
+/// by; DefectiveSurface when it crosses itself
 Footing onFoot(Solid solid, const Options& options, const std::optional<double>& wanted = {});
 
 } // namespace massprops

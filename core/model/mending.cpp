@@ -1,5 +1,6 @@
 #include "core/model/mending.h"
 
+#include "core/base/interruption.h"
 #include "core/mesh/signed_volume.h"
 #include "core/model/closed_holes.h"
 #include "core/model/empty_shells.h"
@@ -38,6 +39,7 @@ constexpr int kMostUnions = 6;
 bool take(const Way& way, const MendingTask& task, RepairedMesh& model) {
   bool isChanged = false;
   for (const MendingStep step : way) {
+    checkpoint();
     MendedMesh next = step(model.mesh, task);
     if (next.done.empty()) continue;
     isChanged = true;

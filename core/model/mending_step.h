@@ -5,13 +5,43 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
+#include <memory>
 #include <string>
 
 namespace massprops {
 
+/// Nothing that moves the surface less than the wall can be felt. Knows for which other walls all
+/// that it was asked for would have had the same answer; copies know it together.
+class FeltWall {
+public:
+  FeltWall(double length = 0.0) : length_(length) {} // NOLINT: a length is one
+
+  bool hides(double distance) const {
+    const bool isHidden = distance <= length_;
+    (isHidden ? alike_->least : alike_->beyond) =
+        isHidden ? std::max(alike_->least, distance) : std::min(alike_->beyond, distance);
+    return isHidden;
+  }
+  double exactly() const {
+    *alike_ = {length_, length_};
+    return length_;
+  }
+  bool isLike(double length) const {
+    return length == length_ || (alike_->least <= length && length < alike_->beyond);
+  }
+
+private:
+  struct Range {
+    double least = 0.0, beyond = std::numeric_limits<double>::infinity();
+  };
+  double length_;
+  std::shared_ptr<Range> alike_ = std::make_shared<Range>();
+};
+
 /// What the steps may go by.
 struct MendingTask {
-  double wall = 0.0; ///< length; nothing that moves the surface less than this can be felt
+  FeltWall wall;
   Mat3 rotation = Mat3::Identity(); ///< that puts the model upright, +z
   bool keepsOpenings = false;       ///< whether the surface is to become a shell with its openings
   /// Rounds points to what the caller can store.

@@ -78,23 +78,35 @@ void requireDryOpenings(const PosedModel& posed, double waterLevel) {
 
 } // namespace
 
-PosedModel makePosedModel(const Solid& solid, const Options& options,
-                          const std::optional<Foot>& foot) {
+PosedModel posedModel(const Solid& solid, UpAxis up, const std::optional<Vec2>& radii,
+                      const std::optional<Foot>& foot) {
   PosedModel posed;
   posed.foot = foot;
-  posed.frame.rotation = rotationToUp(options.upAxis);
+  posed.frame.rotation = rotationToUp(up);
   const Points upright = solid.vertices() * posed.frame.rotation.transpose();
-  std::optional<Vec2> radii;
-  if (options.radiusX && options.radiusY) radii = Vec2(*options.radiusX, *options.radiusY);
   const GroundContact contact =
       groundContact(upright, radii, foot ? std::optional(foot->spread) : std::nullopt);
-  if (standsOnContacts(options.goal)) requireArea(contact.area);
   posed.frame.origin = posed.frame.rotation.transpose() * contact.centre;
   posed.frame.length = solid.diagonal();
   posed.contact = snappedArea(scaled(contact.area, solid.diagonal()));
-  posed.wall = snappedUp(options.innerLowerBound.value_or(kDefaultWall * solid.diagonal()) /
-                             solid.diagonal() +
+  arrangeInSpace(solid, posed);
+  requireVolume(posed);
+  posed.cavities = solid.cavities();
+  posed.cavities.vertices = toWorking(posed.frame, solid.cavities().vertices);
+  return posed;
+}
+
+std::optional<Vec2> givenRadii(const Options& options) {
+  if (!options.radiusX || !options.radiusY) return std::nullopt;
+  return Vec2(*options.radiusX, *options.radiusY);
+}
+
+void takeWishes(const Options& options, PosedModel& posed) {
+  if (standsOnContacts(options.goal)) requireArea(posed.contact);
+  const double diagonal = posed.frame.length;
+  posed.wall = snappedUp(options.innerLowerBound.value_or(kDefaultWall * diagonal) / diagonal +
                          roundOff(posed.frame));
+  posed.pivot.reset();
   if (options.pivot) {
     posed.pivot = toWorking(posed.frame, Points(options.pivot->transpose())).row(0).transpose();
     if (posed.pivot->norm() > kFarthestPivot) {
@@ -103,11 +115,13 @@ PosedModel makePosedModel(const Solid& solid, const Options& options,
                          "and pivot_z in the coordinates of the scene.");
     }
   }
-  arrangeInSpace(solid, posed);
-  requireVolume(posed);
   if (posed.open && options.goal == GoalKind::Float) requireDryOpenings(posed, options.waterLevel);
-  posed.cavities = solid.cavities();
-  posed.cavities.vertices = toWorking(posed.frame, solid.cavities().vertices);
+}
+
+PosedModel makePosedModel(const Solid& solid, const Options& options,
+                          const std::optional<Foot>& foot) {
+  PosedModel posed = posedModel(solid, options.upAxis, givenRadii(options), foot);
+  takeWishes(options, posed);
   return posed;
 }
 

@@ -33,9 +33,19 @@ struct PosedModel {
   std::optional<Vec3> pivot;
 };
 
-/// `foot`: the solid's, if it has been cut: it touches the ground with that alone.
-/// \throw InvalidInput when a goal that needs a contact area has none, the pivot lies far away, an
-/// opening lies below the wished waterline, or nothing is left of a sheet in the working frame
+/// All but the wall and the pivot, which goals and walls have in common: by the up axis and the
+/// radii alone. `foot`: the solid's, if it has been cut: it touches the ground with that alone.
+/// \throw InvalidInput when nothing is left of a sheet in the working frame
+PosedModel posedModel(const Solid& solid, UpAxis up, const std::optional<Vec2>& radii,
+                      const std::optional<Foot>& foot);
+/// The half axes of the contact area where they are given; lengths.
+std::optional<Vec2> givenRadii(const Options& options);
+
+/// Wall and pivot. \throw InvalidInput when a goal that needs a contact area has none, the pivot
+/// lies far away, or an opening lies below the wished waterline
+void takeWishes(const Options& options, PosedModel& posed);
+
+/// Both.
 PosedModel makePosedModel(const Solid& solid, const Options& options,
                           const std::optional<Foot>& foot = {});
 

@@ -1,5 +1,6 @@
 #include "core/model/solid.h"
 
+#include "core/base/interruption.h"
 #include "core/base/parallel.h"
 #include "core/base/tolerances.h"
 #include "core/mesh/components.h"
@@ -297,12 +298,14 @@ Solid makeSolid(TriangleMesh input, bool closeOpenings, const Mat3& rotation,
   ClosedSurface surface = closedSurface(std::move(input), closeOpenings);
   TriangleMesh& mesh = surface.repaired.mesh;
   const Points& x = mesh.vertices;
+  checkpoint();
   Solid solid;
   solid.diagonal_ = (x.colwise().maxCoeff() - x.colwise().minCoeff()).norm();
   Components components;
   std::vector<int> order;
   inParallel([&] { components = connectedComponents(x.rows(), mesh.faces); },
              [&] { order = orderInSpace(x, mesh.faces, rotation, solid.diagonal_); });
+  checkpoint();
   const bool isOne = components.size() == 1;
   const std::vector<double> volumes = requireVolumes(x, components, solid.diagonal_);
   // Which component is inside of which one is known only where they do not cross.

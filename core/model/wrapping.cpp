@@ -1,5 +1,6 @@
 #include "core/model/wrapping.h"
 
+#include "core/base/interruption.h"
 #include "core/base/tolerances.h"
 #include "core/base/triangle.h"
 #include "core/mesh/cgal_mesh.h"
@@ -103,6 +104,7 @@ public:
   }
 
   bool do_intersect(const Geom_traits::Ball_3& ball) const {
+    checkpoint();
     return surface_.nearest(at(ball.boundary().center()), ball.boundary().squared_radius()).face >=
            0;
   }
@@ -110,6 +112,7 @@ public:
   template <class Kernel>
   bool do_intersect(
       const CGAL::Alpha_wraps_3::internal::Tetrahedron_with_outside_info<Kernel>& cell) const {
+    checkpoint();
     const CGAL::Bbox_3& box = cell.m_bbox;
     bool isCut = false;
     surface_.forOverlaps({box.xmin(), box.ymin(), box.zmin()}, {box.xmax(), box.ymax(), box.zmax()},
@@ -223,7 +226,8 @@ std::string percent(double share) {
 MendedMesh wrapped(const TriangleMesh& input, const MendingTask& task) {
   if (input.faces.rows() == 0) return {input};
   const double diagonal = diagonalOf(input.vertices);
-  const double offset = std::min(0.25 * task.wall, diagonal / 400.0);
+  const double most = diagonal / 400.0;
+  const double offset = task.wall.hides(4.0 * most) ? most : 0.25 * task.wall.exactly();
   const double volume = enclosedVolume(input);
   if (!(volume > kLeastVolume * std::pow(diagonal, 3))) return {input};
 
@@ -248,7 +252,7 @@ MendedMesh wrapped(const TriangleMesh& input, const MendingTask& task) {
                              greatestDistance(input.vertices, visibleFaces(input), tree));
   const double change = signedVolume(result.mesh.vertices, result.mesh.faces) / volume - 1.0;
   result.done = "wrapped, volume " + percent(change);
-  if (result.distance <= task.wall && std::abs(change) <= kMostVolume) return result;
+  if (task.wall.hides(result.distance) && std::abs(change) <= kMostVolume) return result;
   result.warning =
       "The model could not be mended piece by piece and was wrapped anew: its surface moved by up "
       "to " +

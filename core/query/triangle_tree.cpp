@@ -1,5 +1,6 @@
 #include "core/query/triangle_tree.h"
 
+#include "core/base/interruption.h"
 #include "core/base/parallel.h"
 #include "core/base/triangle.h"
 #include "core/query/triangle_distance.h"
@@ -50,6 +51,8 @@ struct Centre {
 void cut(std::vector<Centre>& centres, Eigen::Index first, Eigen::Index count,
          Eigen::Index leaves) {
   if (count == 1) return;
+  constexpr Eigen::Index kWorthAThread = 4096;
+  if (count >= kWorthAThread) checkpoint();
   const auto all = static_cast<Eigen::Index>(centres.size());
   const auto place = [&](Eigen::Index leaf) { return centres.begin() + leaf * all / leaves; };
   float lower[3] = {1e30F, 1e30F, 1e30F};
@@ -71,7 +74,6 @@ void cut(std::vector<Centre>& centres, Eigen::Index first, Eigen::Index count,
                      return a.position[axis] < b.position[axis] ||
                             (a.position[axis] == b.position[axis] && a.face < b.face);
                    });
-  constexpr Eigen::Index kWorthAThread = 4096;
   const auto left = [&] { cut(centres, first, half, leaves); };
   const auto right = [&] { cut(centres, first + half, count - half, leaves); };
   if (count == leaves && leaves >= kWorthAThread) {

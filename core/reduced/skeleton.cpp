@@ -1,5 +1,6 @@
 #include "core/reduced/skeleton.h"
 
+#include "core/base/interruption.h"
 #include "core/base/parallel.h"
 #include "core/base/triangle.h"
 #include "core/mesh/components.h"
@@ -107,6 +108,7 @@ template <class HalfedgeMesh, class VertexPoints, class Tree>
 class CGAL::Side_of_triangle_mesh<HalfedgeMesh, massprops::FlowKernel, VertexPoints, Tree> {
 public:
   explicit Side_of_triangle_mesh(const HalfedgeMesh& mesh) {
+    massprops::checkpoint(); // in every step of the flow
     known_.next = 0;
     known_.isRepetition = !known_.isRepetition;
     if (known_.isRepetition) return;

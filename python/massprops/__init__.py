@@ -16,7 +16,7 @@ import numpy as np
 from . import _massprops
 from ._massprops import InvalidInput, __version__
 
-__all__ = ["ColouredMesh", "InvalidInput", "Mesh", "Result", "hollow", "parameters",
+__all__ = ["ColouredMesh", "InvalidInput", "Mesh", "Model", "Result", "hollow", "parameters",
            "set_thread_count"]
 
 InvalidInput.__module__ = __name__
@@ -146,8 +146,34 @@ def _require_known(given):
                             + (f": is it '{near[0]}'?" if near else ""))
 
 
-def hollow(vertices, faces, *, keep_solid=None, pictures=False, single_precision=False, progress=None,
-           **parameters):
+class Model:
+    """A model for several runs, `hollow` with other parameters each time. What a run has in common with the one
+    before is not found out again: the checked or mended model for another goal or wall, where a cavity may be for
+    another goal with the same wall, the skeleton for any other offset surface. Results are those of
+    `massprops.hollow`, bit for bit. Runs of several threads wait for each other."""
+
+    def __init__(self, vertices, faces, *, single_precision=False):
+        """As for `massprops.hollow`; later changes of the arrays do not count."""
+        points = _points(vertices)
+        self._faces = _triangles(faces, len(points)).copy()
+        self._vertices = points.astype(np.float32).astype(np.float64) if single_precision else points.copy()
+        self._model = _massprops.Model(points, self._faces, bool(single_precision))
+
+    def hollow(self, *, keep_solid=None, pictures=False, progress=None, **parameters):
+        """As `massprops.hollow` of this model."""
+        _require_known(parameters)
+        wishes = dict(parameters, show_layers=bool(pictures))
+        cavity, wall, outer, drilled, plugs, drawn, report = self._model.hollow(
+            wishes, _kept(keep_solid, len(self._faces)), progress)
+        return Result(cavity=Mesh(*cavity), wall=wall,
+                      outer=Mesh(self._vertices, self._faces) if outer is None else Mesh(*outer),
+                      outer_changed=outer is not None,
+                      drilled=None if drilled is None else Mesh(*drilled),
+                      plugs=None if plugs is None else Mesh(*plugs),
+                      pictures=tuple(ColouredMesh(v, f, name, c) for name, v, f, c in drawn), report=report)
+
+
+def hollow(vertices, faces, *, single_precision=False, **wishes):
     """Finds the cavity with which a model reaches its goal. Same input, same result, bit for bit.
 
     vertices: n×3, lengths read as millimetres, the up axis is +z unless `up_axis` says otherwise.
@@ -156,27 +182,15 @@ def hollow(vertices, faces, *, keep_solid=None, pictures=False, single_precision
     pictures: whether the result brings the model cut open, the marks of the goal, and the skeleton.
     single_precision: whether all coordinates shall be numbers of single precision, as STL files keep them;
         what is checked and reported is then what such a file holds.
-    progress: called with a percentage and the name of a stage; what it raises ends the run.
+    progress: called, several times a second, with a percentage and the name of a stage; what it raises ends the
+        run at once.
     parameters: those below, of which None keeps the default; a length is a number in the model's units or a
         share of the diagonal as in "1.5%".
 
     Returns a Result; a goal that is missed is no error but result.solved == False. Raises InvalidInput, a
     ValueError, when the model or a parameter is refused, and RuntimeError when a stage fails on the model.
-    Other threads of Python go on meanwhile."""
-    _require_known(parameters)
-    points = _points(vertices)
-    triangles = _triangles(faces, len(points))
-    wishes = dict(parameters, show_layers=bool(pictures))
-    cavity, wall, outer, drilled, plugs, drawn, report = _massprops.hollow(
-        points, triangles, wishes, _kept(keep_solid, len(triangles)), bool(single_precision), progress)
-    if single_precision:
-        points = points.astype(np.float32).astype(np.float64)
-    return Result(cavity=Mesh(*cavity), wall=wall,
-                  outer=Mesh(points, triangles) if outer is None else Mesh(*outer),
-                  outer_changed=outer is not None,
-                  drilled=None if drilled is None else Mesh(*drilled),
-                  plugs=None if plugs is None else Mesh(*plugs),
-                  pictures=tuple(ColouredMesh(v, f, name, c) for name, v, f, c in drawn), report=report)
+    Other threads of Python go on meanwhile. For several goals or walls of one model: `Model`."""
+    return Model(vertices, faces, single_precision=single_precision).hollow(**wishes)
 
 
 def _with_parameters(text):

@@ -3,7 +3,9 @@ import json
 import os
 import pty
 import re
+import signal
 import subprocess
+import time
 import unittest
 import zipfile
 
@@ -232,7 +234,58 @@ class EndingsTest(ProgramTest):
         self.assertIn(b"solved", out)
 
 
+class EndedTest(ProgramTest):
+    """By a signal, in the midst of a run."""
+
+    def start(self, *arguments, **how):
+        """Until it has begun to make its files."""
+        process = subprocess.Popen([PROGRAM, *map(str, arguments)], cwd=self.folder, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, **how)
+        while process.poll() is None and not list(self.folder.glob(".massprops.part*")):
+            time.sleep(0.001)
+        return process
+
+    def test_nothing_is_left(self):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            with self.start(PIECE, "--goal", "Stand", "-o", "cavity.ply", "--report", "report.json",
+                            "--print-file", "project.3mf") as process:
+                process.send_signal(number)
+                process.communicate()
+                self.assertEqual(process.returncode, -number)
+            self.assertEqual(self.files(), [])
+
+    def test_who_starts_it_may_ignore_hang_ups(self):
+        ignoring = lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN)
+        with self.start(PIECE, *LIGHT, "-o", "cavity.ply", preexec_fn=ignoring) as process:
+            process.send_signal(signal.SIGHUP)
+            process.communicate()
+            self.assertEqual(process.returncode, 0)
+        self.assertEqual(self.files(), ["cavity.ply"])
+
+    def test_no_model_goes_on_without_the_others(self):
+        process = self.start(PIECE, TOP, *LIGHT, "--jobs", "2", "-o", "{name}.ply")
+        process.terminate()
+        process.communicate()  # until the last of its children has closed its output
+        self.assertEqual(process.returncode, -signal.SIGTERM)
+        self.assertEqual(self.files(), [])
+
+    def test_what_a_killed_one_has_left_is_not_delivered(self):
+        write(self.folder / "cube.ply", *cube())
+        stale = ("mkdir .massprops.part$$ && cp cube.ply .massprops.part$$/cavity.ply && "
+                 'exec "$0" cube.ply --inner-lower-bound 45% -o cavity.ply')
+        subprocess.run(["/bin/sh", "-c", stale, PROGRAM], check=False, cwd=self.folder,
+                       stdout=subprocess.PIPE)
+        self.assertFalse((self.folder / "cavity.ply").exists())
+
+
 class ManyModelsTest(ProgramTest):
+    def test_the_end_is_seen_by_who_was_started_deaf_to_it(self):
+        deaf = lambda: signal.signal(signal.SIGCHLD, signal.SIG_IGN)
+        done = subprocess.run([PROGRAM, PIECE, TOP, *LIGHT, "--jobs", "2"], check=False, timeout=3000,
+                              stdout=subprocess.PIPE, preexec_fn=deaf)
+        self.assertEqual(done.returncode, 0)
+        self.assertEqual(len(done.stdout.splitlines()), 2)
+
     def test_a_bad_model_stops_no_other(self):
         vertices, faces = read(PIECE)
         for name in ("a", "c", "d"):

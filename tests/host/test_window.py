@@ -1,4 +1,5 @@
 """The filter in MeshLab's window, used with the mouse."""
+import subprocess
 import unittest
 
 import numpy as np
@@ -100,6 +101,20 @@ class FilterTest(window.WindowTest):
                 ("after", (green > 1.5 * red) & (green > 1.5 * blue), 100),
                 ("the contact area", (blue > 1.5 * green) & (blue > 3 * red), 50)):
             self.assertGreater(seen.sum(), least, what)
+
+    def test_escape_ends_a_run(self):
+        _, file = self.dinosaur(refinements=4)
+        self.open(file)
+        dialog = self.open_filter()
+        self.desktop.click(self.desktop.find(dialog, "push button", "Apply"))
+        subprocess.run(["xdotool", "key", "Escape"], check=True)
+        box = wait_for(lambda: next((w for w in self.application if w is not None
+                                     and w.name == "Filter Failure"), None), "the message")
+        (message,) = self.desktop.all(box, "label")[-1:]
+        self.assertIn("The run was ended", message.name)
+        self.desktop.click(self.desktop.find(box, "push button"))
+        self.wait_for_log("Filter failed")
+        self.assertEqual(self.layers(), ["toy.dinosaur"])
 
     def refuse(self, vertices, faces, *sentences):
         self.open(write_ply(self.folder / "refused.ply", vertices, faces))

@@ -324,13 +324,13 @@ TEST(LocalCrossings, AreMendedPlaceByPlaceAfterAUnion) {
       1.9 * (folded.vertices.row(folded.faces(face, 1)) - folded.vertices.row(v)).eval();
   ASSERT_GT(intersectingPairs(folded), pressed);
   MendingTask task = taskFor(fork);
-  task.wall *= 4.0;
+  task.wall = 0.04 * diagonal(fork);
   EXPECT_TRUE(withoutLocalCrossings(folded, task).done.empty());
   const MendedMesh result = withFewerCrossings(folded, task);
   EXPECT_TRUE(isClosedAndOriented(result.mesh));
   EXPECT_LE(intersectingPairs(result.mesh), pressed);
   EXPECT_GT(intersectingPairs(result.mesh), 0U);
-  EXPECT_LE(result.distance, task.wall);
+  EXPECT_TRUE(task.wall.hides(result.distance));
 }
 
 TEST(EmptyShells, GoAndLeaveTheBodies) {
@@ -424,7 +424,7 @@ TEST(Wrapped, KeepsTheVolumeOfASoup) {
   const MendedMesh result = wrapped(submesh(soup.vertices, soup.faces).mesh, taskFor(body));
   expectClosed(result.mesh);
   EXPECT_NEAR(volume(result.mesh), volume(body), 0.03 * volume(body));
-  EXPECT_LE(result.distance, taskFor(body).wall);
+  EXPECT_TRUE(taskFor(body).wall.hides(result.distance));
   EXPECT_EQ(result.warning, "");
   EXPECT_NE(result.done.find("wrapped, volume "), std::string::npos);
 }
@@ -564,6 +564,41 @@ TEST(Mending, GivesTheSameBytesAgain) {
   ASSERT_TRUE(one && other);
   EXPECT_EQ(one->vertices(), other->vertices());
   EXPECT_EQ(one->faces(), other->faces());
+}
+
+TEST(Mending, IsTheSameForWallsThatAreAlike) {
+  LARGE_TEST();
+  const TriangleMesh two = joined(blob(8), shifted(blob(7), {0.9, 0.3, 0.1}));
+  MendingTask task = taskFor(two);
+  const std::optional<Solid> solid = mended(two, task);
+  ASSERT_TRUE(solid);
+  int alike = 0;
+  for (const double share : {0.005, 0.02, 0.1}) {
+    MendingTask other;
+    other.wall = share * diagonal(two);
+    if (!task.wall.isLike(share * diagonal(two))) continue;
+    ++alike;
+    const std::optional<Solid> again = mended(two, other);
+    ASSERT_TRUE(again);
+    EXPECT_EQ(again->vertices(), solid->vertices()) << share;
+    EXPECT_EQ(again->faces(), solid->faces()) << share;
+  }
+  EXPECT_GT(alike, 0);
+}
+
+TEST(FeltWall, IsLikeThoseThatHideAndShowTheSame) {
+  const FeltWall wall(1.0);
+  EXPECT_TRUE(wall.isLike(1e9));
+  EXPECT_TRUE(wall.hides(0.5));
+  EXPECT_TRUE(wall.hides(1.0));
+  EXPECT_FALSE(wall.hides(3.0));
+  EXPECT_TRUE(wall.isLike(1.0));
+  EXPECT_TRUE(wall.isLike(2.9));
+  EXPECT_FALSE(wall.isLike(0.9));
+  EXPECT_FALSE(wall.isLike(3.0));
+  EXPECT_EQ(wall.exactly(), 1.0);
+  EXPECT_TRUE(wall.isLike(1.0));
+  EXPECT_FALSE(wall.isLike(1.1));
 }
 
 TEST(Mending, MakesTheSameSolidInHostsOfFloatsAndOfDoubles) {

@@ -1,8 +1,10 @@
 """The Python package: arrays in, arrays and a dictionary out."""
 import inspect
+import os
 import pathlib
 import pickle
 import re
+import signal
 import threading
 import time
 
@@ -145,6 +147,81 @@ def test_an_exception_of_the_callback_ends_the_run(top):
 
     with pytest.raises(Enough, match="now"):
         massprops.hollow(*top, goal="Spin", progress=stop)
+
+
+@pytest.mark.parametrize("stage", ["Checking the model", "Coarse copies", "Optimization", "Report"])
+def test_what_the_callback_raises_is_what_the_run_raises(piece, stage):
+    """Whatever its kind: none of it is taken for a failure of the stage."""
+    for kind in (ValueError, MemoryError, KeyboardInterrupt):
+        stages = []
+
+        def stop(_, present):
+            stages.append(present)
+            if present == stage:
+                raise kind("now")
+
+        with pytest.raises(kind, match="now"):
+            massprops.hollow(*piece, progress=stop, **LIGHT)
+        assert stages.count(stage) == 1 and stages[-1] == stage
+
+
+def test_ctrl_c_ends_a_run(piece):
+    model = massprops.Model(*piece)
+    at_once = threading.Timer(0.05, os.kill, (os.getpid(), signal.SIGINT))
+    at_once.start()
+    with pytest.raises(KeyboardInterrupt):
+        while True:
+            model.hollow(goal="Stand")
+    at_once.join()
+    assert model.hollow(**LIGHT).solved, "the model is as good as new"
+
+
+def same(result, wanted):
+    np.testing.assert_array_equal(result.cavity.vertices, wanted.cavity.vertices)
+    np.testing.assert_array_equal(result.cavity.faces, wanted.cavity.faces)
+    np.testing.assert_array_equal(result.outer.vertices, wanted.outer.vertices)
+    for key, value in wanted.report.items():
+        if not key.startswith("seconds_"):
+            np.testing.assert_equal(result.report[key], value, key)
+
+
+def test_runs_on_one_model_are_those_on_fresh_ones(piece):
+    vertices, faces = piece
+    model = massprops.Model(vertices, faces)
+    wishes = ({"goal": "Stand"}, {"goal": "Mass"}, {"goal": "Mass", "inner_lower_bound": "2%"}, LIGHT,
+              {**LIGHT, "inner_lower_bound": "2%"}, {"goal": "Stand"})
+    for wish in wishes:
+        same(model.hollow(**wish), massprops.hollow(vertices, faces, **wish))
+    floats = massprops.Model(vertices, faces, single_precision=True)
+    same(floats.hollow(**LIGHT), massprops.hollow(vertices, faces, single_precision=True, **LIGHT))
+
+
+def test_a_model_keeps_what_it_was_given(piece):
+    vertices, faces = piece[0].copy(), piece[1].copy()
+    model = massprops.Model(vertices, faces)
+    vertices *= 2.0
+    faces[:] = 0
+    result = model.hollow(**LIGHT)
+    same(result, massprops.hollow(*piece, **LIGHT))
+    with pytest.raises(massprops.InvalidInput, match="density"):
+        model.hollow(density=-1)
+    with pytest.raises(TypeError, match="is it 'inner_lower_bound'"):
+        model.hollow(inner_lowerbound=1)
+    with pytest.raises(massprops.InvalidInput, match="indices of vertices"):
+        massprops.Model(vertices, [[0, 1, 10**6]])
+
+
+def test_runs_of_several_threads_wait_for_each_other(piece):
+    model = massprops.Model(*piece)
+    results = []
+    threads = [threading.Thread(target=lambda wall=wall: results.append(
+        (wall, model.hollow(inner_lower_bound=wall, **LIGHT)))) for wall in ("1%", "2%", "1%")]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for wall, result in results:
+        same(result, massprops.hollow(*piece, inner_lower_bound=wall, **LIGHT))
 
 
 @pytest.mark.parametrize("change, sentence", [

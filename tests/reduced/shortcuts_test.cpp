@@ -31,8 +31,9 @@ Report withoutShortcuts(const TriangleMesh& mesh, const Options& options) {
   const Progress silent;
   ProgressBar bar(silent);
   const ThreadTeam team;
-  const Preparation prepared = prepare(mesh, options, bar, Resolution::Full);
-  const Foundation foundation = coarsen(prepared, options, bar);
+  PreparedModel model(mesh);
+  const Preparation prepared = prepare(model, {}, options, bar);
+  const Foundation foundation = coarsen(prepared, options, bar, Resolution::Full);
   return report(prepared, foundation, search(prepared, foundation, options, bar), options);
 }
 
