@@ -1,24 +1,19 @@
 #include "core/query/surface_distance.h"
 
+#include "core/base/infinity.h"
 #include "core/base/parallel.h"
 #include "core/mesh/connectivity.h"
 #include "core/query/triangle_distance.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace massprops {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Eigen::Index kChunk = 1024;
 constexpr double kRounding = 1e-12;
-constexpr double kMeasured = 1e-9; ///< to which distances are, relative
-/// The search goes a little beyond the horizon: so far a face may move before the next measurement
-/// has to look at it again.
-constexpr double kBeyond = 1.00001;
 
 /// Radius of the smallest ball around the triangle, squared, given its sides' squares.
 double squaredRadius(double ab, double bc, double ca) {
@@ -104,7 +99,7 @@ public:
         }
         const double sure = horizon_ * (1.0 + kRounding);
         if (bound >= sure) continue;
-        const double reach = kBeyond * horizon_;
+        const double reach = (1.0 + kMeasured) * horizon_;
         double enough = std::min(leastAtCorners(squared_, f), reach * reach);
         if (before >= sure) enough = std::min(enough, 0.25 * (before + sure) * (before + sure));
         const double found = before > 0.0 ? distanceOf(f, enough, before) : distanceOf(f, enough);
