@@ -14,6 +14,10 @@ namespace {
 
 constexpr Eigen::Index kChunk = 1024;
 constexpr double kRounding = 1e-12;
+/// The search goes a little beyond the horizon: so far a face may move, as where it is rounded to
+/// what is stored, before the next measurement has to look at it again. Without it twice as many
+/// triangles are compared.
+constexpr double kBeyond = 1.00001;
 
 /// Radius of the smallest ball around the triangle, squared, given its sides' squares.
 double squaredRadius(double ab, double bc, double ca) {
@@ -99,7 +103,7 @@ public:
         }
         const double sure = horizon_ * (1.0 + kRounding);
         if (bound >= sure) continue;
-        const double reach = (1.0 + kMeasured) * horizon_;
+        const double reach = kBeyond * horizon_;
         double enough = std::min(leastAtCorners(squared_, f), reach * reach);
         if (before >= sure) enough = std::min(enough, 0.25 * (before + sure) * (before + sure));
         const double found = before > 0.0 ? distanceOf(f, enough, before) : distanceOf(f, enough);
