@@ -85,7 +85,7 @@ void checker(benchmark::State& state) {
   const Animal& a = animal(state.range(0));
   for ([[maybe_unused]] auto _ : state) {
     const TriangleTree surface(a.posed.vertices, a.posed.faces, TriangleTree::Order::Spatial);
-    benchmark::DoNotOptimize(inspect(a.inner, a.posed.faces, surface, a.posed.wall, false));
+    benchmark::DoNotOptimize(inspect(a.inner, a.posed.faces, surface, a.posed.wall));
   }
   countTriangles(state, a);
 }

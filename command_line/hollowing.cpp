@@ -4,6 +4,7 @@
 #include "command_line/output_files.h"
 #include "command_line/report_json.h"
 #include "core/mesh/components.h"
+#include "core/parameter_text.h"
 #include "core/parameters.h"
 
 #include <array>

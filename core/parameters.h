@@ -48,11 +48,6 @@ const std::vector<Parameter>& parameterTable();
 /// As a dialog shows it, with its unit.
 std::string fullLabel(const Parameter& parameter);
 
-/// The value that a text stands for: a truth value as `true` or `false`, a number with a decimal
-/// point, a length also as `1.5%` of the diagonal, a choice by its entry, in any case of letters.
-/// \throw InvalidInput when it stands for none
-ParameterValue valueFrom(const Parameter& parameter, const std::string& text, double diagonal);
-
 /// What was set; nothing keeps the default of `Options`. Throws what it likes.
 using ParameterSource = std::function<std::optional<ParameterValue>(const Parameter&)>;
 

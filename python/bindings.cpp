@@ -3,6 +3,7 @@
 #include "core/base/parallel.h"
 #include "core/goals/registry.h"
 #include "core/mesh/components.h"
+#include "core/parameter_text.h"
 #include "core/parameters.h"
 #include "core/pipeline.h"
 

@@ -1,5 +1,6 @@
 #include "core/answer/cutaway.h"
 
+#include "core/mesh/degenerate_faces.h"
 #include "core/mesh/plane_cut.h"
 
 #include <algorithm>
@@ -19,17 +20,10 @@ double levelOff(const Eigen::VectorXd& heights, double level, double apart) {
   return level;
 }
 
-/// Along a plane near z = 0 that can be cut along; empty where none was found.
+/// Along a plane next to z = 0 that meets no vertex; empty where it cannot be cut along.
 std::optional<PlaneCut> cutNear(const TriangleMesh& mesh, double size) {
-  // So that none meets a vertex, and corners that lie on each other in one lie apart in another.
-  constexpr double kApart = 1e-11;
-  constexpr double kSteps[] = {0.0, 1e-6, 1e-5, 1e-4, 1e-3};
-  for (const double step : kSteps) {
-    const double level = levelOff(mesh.vertices.col(2), step * size, kApart * size);
-    std::optional<PlaneCut> cut = cutAbove(mesh.vertices, mesh.faces, level, 0.0, asTheyAre);
-    if (cut) return cut;
-  }
-  return std::nullopt;
+  const double level = levelOff(mesh.vertices.col(2), 0.0, kSafe * size);
+  return cutAbove(mesh.vertices, mesh.faces, level, 0.0, asTheyAre);
 }
 
 } // namespace

@@ -30,10 +30,10 @@ TriangleMesh skinOf(const Solid& solid, Points vertices) {
   return submesh(vertices, solid.skin()).mesh;
 }
 
-void deliverOffsetSurface(const Solid& solid, const PosedModel& posed, const CavityTask& task,
-                          const CavityResult& cavity, const std::vector<int>& vertexOf,
-                          const std::function<Points(const Points&)>& representable,
-                          Delivery& result) {
+/// The cavity alone.
+Delivery offsetSurface(const Solid& solid, const PosedModel& posed, const CavityTask& task,
+                       const CavityResult& cavity, const std::vector<int>& vertexOf,
+                       const std::function<Points(const Points&)>& representable) {
   std::vector<int> places = placesInSolid(posed, vertexOf);
   // Those of a finer copy are no vertices of the model; those of caps come last.
   if (!posed.open) {
@@ -49,8 +49,8 @@ void deliverOffsetSurface(const Solid& solid, const PosedModel& posed, const Cav
     faces = withoutLids(faces, n);
   }
   Submesh inner = submesh(positions, placed(faces, places));
-  result.inner = std::move(inner.mesh);
-  result.innerWall = placed(wallOf(task, cavity), places)(inner.vertexOf) * posed.frame.length;
+  return {std::move(inner.mesh),
+          placed(wallOf(task, cavity), places)(inner.vertexOf) * posed.frame.length, std::nullopt};
 }
 
 } // namespace
@@ -67,7 +67,7 @@ Delivery deliver(const Solid& solid, const PosedModel& posed, const CavityTask& 
     return result;
   }
   if (!cavity.isContour) {
-    deliverOffsetSurface(solid, posed, task, cavity, vertexOf, representable, result);
+    result = offsetSurface(solid, posed, task, cavity, vertexOf, representable);
   } else {
     // Vertices of what was filled are left out.
     Submesh inner = submesh(representable(toModel(posed.frame, cavity.inner)), cavity.cavity.faces);

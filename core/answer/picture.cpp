@@ -1,14 +1,13 @@
 #include "core/answer/picture.h"
 
 #include "core/answer/cutaway.h"
-#include "core/base/angles.h"
+#include "core/base/circle.h"
 #include "core/goals/verdict.h"
 #include "core/mesh/components.h"
 #include "core/model/posed_model.h"
 #include "core/reduced/cavity_search.h"
 
 #include <algorithm>
-#include <cmath>
 #include <exception>
 #include <new>
 #include <utility>
@@ -20,12 +19,10 @@ namespace {
 constexpr double kApart = 5e-3;
 
 Vec2 widestDirection(const Points& vertices) {
-  constexpr int kDirections = 36;
   Vec2 widest = Vec2::UnitX();
   double width = 0.0;
-  for (int i = 0; i < kDirections; ++i) {
-    const double angle = kPi * i / kDirections;
-    const Vec2 u(std::cos(angle), std::sin(angle));
+  for (int i = 0; i < kAround / 2; ++i) {
+    const Vec2 u = onCircle(i);
     const Vector along = vertices.leftCols<2>() * u;
     const double extent = along.maxCoeff() - along.minCoeff();
     if (extent <= width) continue;

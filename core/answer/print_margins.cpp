@@ -1,6 +1,8 @@
 #include "core/answer/print_margins.h"
 
 #include "core/base/angles.h"
+#include "core/base/bisection.h"
+#include "core/base/tolerances.h"
 #include "core/base/triangle.h"
 #include "core/mesh/components.h"
 #include "core/optimum/admissible_cells.h"
@@ -17,25 +19,9 @@
 namespace massprops {
 namespace {
 
-/// The greatest deviation 0…most that holds with all smaller ones: steps, then bisections.
+/// The greatest deviation 0…most that holds.
 double greatestDeviation(double most, const std::function<bool(double)>& holds) {
-  constexpr int kSteps = 20;
-  constexpr int kBisections = 7;
-  double good = 0.0;
-  double bad = most;
-  for (int step = 1; step <= kSteps; ++step) {
-    const double next = most * step / kSteps;
-    if (!holds(next)) {
-      bad = next;
-      break;
-    }
-    good = next;
-  }
-  for (int i = 0; i < kBisections && bad > good; ++i) {
-    const double middle = 0.5 * (good + bad);
-    (holds(middle) ? good : bad) = middle;
-  }
-  return good;
+  return holds(most) ? most : lastThatHolds(0.0, most, kFeasibility * most, holds);
 }
 
 /// Moments of what a slicer prints as infill: the material farther than the perimeters from its

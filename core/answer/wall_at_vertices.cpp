@@ -1,17 +1,12 @@
 #include "core/answer/wall_at_vertices.h"
 
+#include "core/base/infinity.h"
 #include "core/base/parallel.h"
+#include "core/query/triangle_distance.h"
 
 #include <cmath>
-#include <limits>
 
 namespace massprops {
-namespace {
-
-constexpr double kRounding = 1e-9;
-constexpr double kAnywhere = std::numeric_limits<double>::infinity();
-
-} // namespace
 
 Vector wallAtVertices(const Points& points, const TriangleTree& outer,
                       const Inspection& inspection) {
@@ -22,9 +17,9 @@ Vector wallAtVertices(const Points& points, const TriangleTree& outer,
       const Vec3 x = points.row(v).transpose();
       const int face = inspection.nearestFace[static_cast<std::size_t>(v)];
       double& distance = wall[v];
-      distance = face < 0 ? kAnywhere : std::sqrt(outer.nearestOn(face, x).squaredDistance);
-      if (distance <= (1.0 + kRounding) * inspection.wallOfVertexAtLeast[v]) continue;
-      distance = std::sqrt(outer.nearest(x, kAnywhere, face).squaredDistance);
+      distance = face < 0 ? kInfinity : std::sqrt(outer.nearestOn(face, x).squaredDistance);
+      if (distance <= (1.0 + kMeasured) * inspection.wallOfVertexAtLeast[v]) continue;
+      distance = std::sqrt(outer.nearest(x, kInfinity, face).squaredDistance);
     }
   });
   return wall;

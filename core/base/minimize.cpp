@@ -90,18 +90,18 @@ public:
     return p.objectiveScale_ * e.objective;
   }
 
-  static void equalities(unsigned m, double* result, unsigned n, const double* x, double* gradient,
-                         void* self) {
+  static void equalities(unsigned /*m*/, double* result, unsigned n, const double* x,
+                         double* gradient, void* self) {
     auto& p = *static_cast<ScaledProblem*>(self);
     const Evaluation& e = p.at(std::vector<double>(x, x + n));
-    constraints(m, n, e.equalities, e.equalityJacobian, p.equalityScales_, result, gradient);
+    constraints(e.equalities, e.equalityJacobian, p.equalityScales_, result, gradient);
   }
 
-  static void inequalities(unsigned m, double* result, unsigned n, const double* x,
+  static void inequalities(unsigned /*m*/, double* result, unsigned n, const double* x,
                            double* gradient, void* self) {
     auto& p = *static_cast<ScaledProblem*>(self);
     const Evaluation& e = p.at(std::vector<double>(x, x + n));
-    constraints(m, n, e.inequalities, e.inequalityJacobian, p.inequalityScales_, result, gradient);
+    constraints(e.inequalities, e.inequalityJacobian, p.inequalityScales_, result, gradient);
   }
 
   Eigen::Index equalityCount() const { return equalityScales_.size(); }
@@ -115,13 +115,12 @@ public:
   const Vector& inequalityScales() const { return inequalityScales_; }
 
 private:
-  static void constraints(unsigned m, unsigned n, const Vector& values, const Matrix& jacobian,
-                          const Vector& scales, double* result, double* gradient) {
-    for (unsigned i = 0; i < m; ++i) {
-      result[i] = scales[i] * values[i];
-      if (gradient == nullptr) continue;
-      for (unsigned j = 0; j < n; ++j) gradient[i * n + j] = scales[i] * jacobian(i, j);
-    }
+  static void constraints(const Vector& values, const Matrix& jacobian, const Vector& scales,
+                          double* result, double* gradient) {
+    Eigen::Map<Vector>(result, values.size()) = scales.cwiseProduct(values);
+    if (gradient == nullptr) return;
+    Eigen::Map<RowMatrix>(gradient, jacobian.rows(), jacobian.cols()) =
+        scales.asDiagonal() * jacobian;
   }
 
   const Problem& problem_;

@@ -49,8 +49,8 @@ CavityResult resultOf(const CavityTask& task, const Contour& contour, ClearanceQ
   result.outer = task.surface.vertices();
   result.cavity.faces = contour.mesh.faces;
   const Stopwatch time;
-  result.inspection = inspect(result.inner, contour.mesh.faces, task.surface, task.wall, false,
-                              LookFirst::ForAll, &clearance, task.stored);
+  result.inspection =
+      inspect(result.inner, contour.mesh.faces, task.surface, task.wall, &clearance, task.stored);
   result.effort.secondsInspection = time.seconds();
   return result;
 }

@@ -7,15 +7,13 @@
 #include "core/query/nesting.h"
 #include "core/query/point_in_mesh.h"
 #include "core/query/self_intersection.h"
+#include "core/query/triangle_distance.h"
 
 #include <algorithm>
 #include <initializer_list>
 
 namespace massprops {
 namespace {
-
-/// Distances are measured to a billionth.
-constexpr double kMeasured = 1e-9;
 
 double safely(double wall) {
   return (1.0 + kMeasured) * wall;
@@ -61,40 +59,20 @@ std::vector<int> thinnerThan(double wall, const Eigen::Ref<const Vector>& walls)
 } // namespace
 
 Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleTree& outer,
-                   double wall, bool outerMoved, LookFirst first, ClearanceQuery* clearance,
+                   double wall, ClearanceQuery* clearance,
                    const std::function<Points(const Points&)>& stored) {
   Inspection inspection;
-  const auto takeFolds = [&] {
-    add(foldedVertices(stored ? stored(inner) : inner, innerFaces, TriangleTree::Order::Spatial),
-        inspection.crossing);
-  };
-  const auto takeWall = [&] {
-    ClearanceQuery fresh(outer);
-    Clearance found =
-        (clearance != nullptr ? *clearance : fresh).measure(inner, innerFaces, safely(wall));
-    add(verticesOf(innerFaces, {&found.crossing}), inspection.crossing);
-    inspection.wall = std::move(found.distance);
-    inspection.leastWall = found.least;
-    inspection.nearestFace = std::move(found.nearestFace);
-    inspection.wallOfVertexAtLeast = std::move(found.vertexBounds);
-    inspection.thin = thinnerThan(wall, inspection.wall);
-  };
-  if (first == LookFirst::ForThinWalls) {
-    takeWall();
-    if (!inspection.thin.empty()) return inspection;
-    takeFolds();
-  } else {
-    takeFolds();
-    if (first == LookFirst::ForFolds && !inspection.crossing.empty()) return inspection;
-    takeWall();
-  }
-  if (outerMoved) {
-    const std::vector<int> outerFolds =
-        stored ? selfIntersectingFaces(stored(outer.vertices()), outer.faces(),
-                                       TriangleTree::Order::Spatial)
-               : selfIntersectingFaces(outer);
-    inspection.outerCrossing = verticesOf(outer.faces(), {&outerFolds});
-  }
+  add(foldedVertices(stored ? stored(inner) : inner, innerFaces, TriangleTree::Order::Spatial),
+      inspection.crossing);
+  ClearanceQuery fresh(outer);
+  Clearance found =
+      (clearance != nullptr ? *clearance : fresh).measure(inner, innerFaces, safely(wall));
+  add(verticesOf(innerFaces, {&found.crossing}), inspection.crossing);
+  inspection.wall = std::move(found.distance);
+  inspection.leastWall = found.least;
+  inspection.nearestFace = std::move(found.nearestFace);
+  inspection.wallOfVertexAtLeast = std::move(found.vertexBounds);
+  inspection.thin = thinnerThan(wall, inspection.wall);
 
   const Components components = connectedComponents(inner.rows(), innerFaces);
   inspection.components = static_cast<int>(components.size());
@@ -109,6 +87,15 @@ Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleT
         inspection.crossing);
   }
   return inspection;
+}
+
+std::vector<int> outerCrossings(const TriangleTree& outer,
+                                const std::function<Points(const Points&)>& stored) {
+  const std::vector<int> folds =
+      stored ? selfIntersectingFaces(stored(outer.vertices()), outer.faces(),
+                                     TriangleTree::Order::Spatial)
+             : selfIntersectingFaces(outer);
+  return verticesOf(outer.faces(), {&folds});
 }
 
 Inspection inspectShell(const Points& positions, const Faces& cavity, const TriangleTree& skin,

@@ -30,20 +30,20 @@ struct Inspection {
   bool isClean() const { return crossing.empty() && outerCrossing.empty() && thin.empty(); }
 };
 
-/// What is looked for first; where it is found, that is reported alone.
-enum class LookFirst { ForAll, ForFolds, ForThinWalls };
-
 /// Exact predicates for crossings and containment, double precision for distances: surfaces that
 /// are a wall apart do not cross.
 /// `inner`, `innerFaces`: the cavity, outward oriented as a body of its own. `wall`: wanted
-/// distance, same unit. `outerMoved`: whether the outer surface may cross itself. `clearance`:
-/// null, or made for `outer`; several inspections with one take less time. `stored`: empty, or the
-/// points as the caller gets them, where faces must not cross, either: what just passes by in one
-/// frame may touch in another, for both are rounded.
+/// distance, same unit. `clearance`: null, or made for `outer`; several inspections with one take
+/// less time. `stored`: empty, or the points as the caller gets them, where faces must not cross,
+/// either: what just passes by in one frame may touch in another, for both are rounded.
 Inspection inspect(const Points& inner, const Faces& innerFaces, const TriangleTree& outer,
-                   double wall, bool outerMoved, LookFirst first = LookFirst::ForAll,
-                   ClearanceQuery* clearance = nullptr,
+                   double wall, ClearanceQuery* clearance = nullptr,
                    const std::function<Points(const Points&)>& stored = {});
+
+/// Vertices of faces of an outer surface that has moved which cross each other, ascending.
+/// `stored`: as above.
+std::vector<int> outerCrossings(const TriangleTree& outer,
+                                const std::function<Points(const Points&)>& stored = {});
 
 /// An inspection of the shell of an open surface (open_surface.h): skin, offset surface and strips
 /// together are free of crossings and bound the material, and the offset surface, strips apart,

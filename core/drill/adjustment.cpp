@@ -18,7 +18,6 @@ namespace {
 /// Outward, as long as the wall has room to spare, in walls, at most 1.
 Points directionsOf(const TriangleTree& outer, double wall, const CavityResult& cavity,
                     const std::vector<char>& held) {
-  constexpr double kLeast = 0.05; // walls
   Points directions = vertexNormals(cavity.inner, cavity.cavity.faces);
   for (Eigen::Index v = 0; v < directions.rows(); ++v) {
     double room = 0.0;
@@ -26,7 +25,7 @@ Points directionsOf(const TriangleTree& outer, double wall, const CavityResult& 
       const Vec3 x = cavity.inner.row(v).transpose();
       room = std::sqrt(outer.clearance(x).squaredDistance) / wall - 1.0;
     }
-    directions.row(v) *= room > kLeast ? std::min(room, 1.0) : 0.0;
+    directions.row(v) *= std::clamp(room, 0.0, 1.0);
   }
   return directions;
 }
@@ -43,22 +42,29 @@ public:
         own_(task.goalFor ? task.goalFor(cavity.outer) : nullptr),
         outerMass_(outerMoments(task, cavity)) {}
 
-  /// Inspected. `farthest`: root mean square of the displacements, walls.
-  CavityResult by(double farthest, const std::vector<char>& held) const {
+  /// Inspected.
+  CavityResult with(const std::vector<char>& held) const {
     const Stopwatch time;
     const TriangleTree& outer = moved_ ? *moved_ : task_.surface;
     CavityResult result = cavity_;
     const Points directions = directionsOf(outer, task_.wall, cavity_, held);
-    const Displaced done = displace({own_ ? *own_ : task_.goal, task_.weights, task_.model.fillings,
-                                     outerMass_, task_.model.solidMoments[0], cavity_.cavity.faces,
-                                     directions, farthest * task_.wall},
-                                    result.inner);
+    constexpr double kFarthest = 0.25; // walls, root mean square
+    DisplacementTask least{own_ ? *own_ : task_.goal,
+                           task_.weights,
+                           task_.model.fillings,
+                           outerMass_,
+                           task_.model.solidMoments[0],
+                           cavity_.cavity.faces,
+                           directions,
+                           kFarthest * task_.wall};
+    least.movesLeast = true;
+    const Displaced done = displace(least, result.inner);
     if (task_.deliverable) result.inner = task_.deliverable(result.inner);
     result.effort.evaluations += done.evaluations;
     result.effort.secondsOptimization += time.seconds();
     const Stopwatch inspection;
-    result.inspection = inspect(result.inner, result.cavity.faces, outer, task_.wall, false,
-                                LookFirst::ForAll, nullptr, task_.stored);
+    result.inspection =
+        inspect(result.inner, result.cavity.faces, outer, task_.wall, nullptr, task_.stored);
     result.effort.secondsInspection += inspection.seconds();
     return result;
   }
@@ -95,26 +101,15 @@ CavityResult adjusted(const CavityTask& task, const CavityResult& cavity,
                       const std::vector<char>& held) {
   const Body before = hollowBody(task, cavity);
   if (before.violation <= kFeasibility || task.weights.constraints == 0.0) return cavity;
-  constexpr double kFarthest[] = {0.02, 0.1, 0.25}; // walls: little does it, and folds nothing
-  constexpr int kRounds = 6;
   const Adjustment adjustment(task, cavity);
-  CavityResult best = cavity;
-  double least = before.violation;
   std::vector<char> resting = held;
-  for (const double farthest : kFarthest) {
-    for (int round = 0; round < kRounds; ++round) {
-      CavityResult result = adjustment.by(farthest, resting);
-      const double violation = hollowBody(task, result).violation;
-      if (result.inspection.isClean()) {
-        if (violation < least) best = result;
-        least = std::min(least, violation);
-        break;
-      }
-      if (!holdFaulty(result, resting)) break;
-    }
-    if (least <= kFeasibility) break;
-  }
-  return best;
+  CavityResult result = cavity;
+  do {
+    result = adjustment.with(resting);
+  } while (holdFaulty(result, resting));
+  const bool isBetter =
+      result.inspection.isClean() && hollowBody(task, result).violation < before.violation;
+  return isBetter ? result : cavity;
 }
 
 } // namespace massprops

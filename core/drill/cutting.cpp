@@ -101,9 +101,9 @@ public:
          const std::function<Points(const Points&)>& representable)
       : material_(material), holes_(holes), expected_(expected), representable_(representable) {}
 
-  std::optional<TriangleMesh> body(double turn) const {
+  std::optional<TriangleMesh> body() const {
     Mesh mesh = surfaceMesh<Mesh>(material_.vertices, material_.faces);
-    const TriangleMesh all = drillsFor(0.0, turn);
+    const TriangleMesh all = drillsFor(0.0);
     Mesh drills = surfaceMesh<Mesh>(all.vertices, all.faces);
     if (!CGAL::Polygon_mesh_processing::corefine_and_compute_difference(mesh, drills, mesh)) {
       return {};
@@ -114,9 +114,9 @@ public:
     return isAsExpected && isSound(result) ? std::optional(std::move(result)) : std::nullopt;
   }
 
-  std::optional<std::vector<TriangleMesh>> plugs(double clearance, double turn) const {
+  std::optional<std::vector<TriangleMesh>> plugs(double clearance) const {
     Mesh mesh = surfaceMesh<Mesh>(material_.vertices, material_.faces);
-    const TriangleMesh whole = drillsFor(clearance, turn);
+    const TriangleMesh whole = drillsFor(clearance);
     Mesh drills = surfaceMesh<Mesh>(whole.vertices, whole.faces);
     if (!CGAL::Polygon_mesh_processing::corefine_and_compute_intersection(mesh, drills, drills)) {
       return {};
@@ -132,9 +132,9 @@ public:
   }
 
 private:
-  TriangleMesh drillsFor(double clearance, double turn) const {
+  TriangleMesh drillsFor(double clearance) const {
     std::vector<TriangleMesh> drills;
-    for (const Hole& hole : holes_) drills.push_back(drillOf(hole, clearance, turn));
+    for (const Hole& hole : holes_) drills.push_back(drillOf(hole, clearance));
     return assembled(drills);
   }
 
@@ -156,15 +156,11 @@ std::optional<DrilledBody> drilled(const TriangleMesh& outer, const TriangleMesh
   Expected expected{eulerCharacteristic(material) - 2 * static_cast<Eigen::Index>(holes.size()),
                     componentCount({outer.vertices, outer.faces})};
   const Cutter cutter(material, holes, expected, representable);
-  constexpr int kTries = 5;
-  constexpr double kTurn = 0.0371; // radians, no share of a side's angle
-  for (int i = 0; i < kTries; ++i) {
-    std::optional<TriangleMesh> body = cutter.body(i * kTurn);
-    if (!body) continue;
-    std::optional<std::vector<TriangleMesh>> plugs = cutter.plugs(clearance, i * kTurn);
-    if (plugs) return DrilledBody{std::move(*body), std::move(*plugs)};
-  }
-  return {};
+  std::optional<TriangleMesh> body = cutter.body();
+  if (!body) return {};
+  std::optional<std::vector<TriangleMesh>> plugs = cutter.plugs(clearance);
+  if (!plugs) return {};
+  return DrilledBody{std::move(*body), std::move(*plugs)};
 }
 
 } // namespace massprops

@@ -109,9 +109,9 @@ void fillUnworthy(const DrainTask& task, const Components& components, std::vect
     if (isUsed[v] == 0) cavity.cavity.solid[v] = 1;
   }
   const TriangleTree outer(cavity.outer, task.search.surface.faces(), TriangleTree::Order::Spatial);
-  cavity.inspection = inspect(
-      cavity.inner, cavity.cavity.faces, task.search.model.outer ? outer : task.search.surface,
-      task.search.wall, false, LookFirst::ForAll, nullptr, task.search.stored);
+  cavity.inspection = inspect(cavity.inner, cavity.cavity.faces,
+                              task.search.model.outer ? outer : task.search.surface,
+                              task.search.wall, nullptr, task.search.stored);
 }
 
 /// Volumes of what stays, the largest first.

@@ -1,18 +1,19 @@
 #include "core/drill/drill_site.h"
 
 #include "core/base/angles.h"
+#include "core/base/infinity.h"
 #include "core/base/triangle.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace massprops {
 namespace {
 
-constexpr int kRays = 24;
 /// Of the radius: how far the drill reaches beyond both surfaces.
 constexpr double kBeyond = 0.25;
+/// Of the radius: how far beside the rims the surfaces are looked at, within and without.
+constexpr double kBeside = 0.5;
 
 /// What a ray that starts in the cavity meets on its way out.
 struct Way {
@@ -34,8 +35,8 @@ public:
     const double back = radius_ * (kBeyond + std::sqrt(1.0 - slope * slope) / slope);
     if (!wayFrom(entry - back * direction_, direction_)) return {};
     const Vec3 behind = entry - back * direction_;
-    double first = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < kRays; ++i) {
+    double first = kInfinity;
+    for (int i = 0; i < Hole::kSides; ++i) {
       const double inner = piece_.cavity.firstHit(behind + radius_ * spoke(i), direction_);
       if (!std::isfinite(inner)) return {};
       first = std::min(first, inner);
@@ -52,7 +53,7 @@ private:
   double leastCosine() const { return demands_ == Demands::Clear ? 0.6 : 0.45; }
 
   Vec3 spoke(int i) const {
-    const double angle = 2.0 * kPi * i / kRays;
+    const double angle = 2.0 * kPi * i / Hole::kSides;
     return std::cos(angle) * u_ + std::sin(angle) * v_;
   }
   Vec3 side(int i) const { return (direction_ + Hole::kWidening * spoke(i)).normalized(); }
@@ -87,25 +88,26 @@ private:
 
   /// Whether the drill comes out where it may, in the middle too.
   bool isMiddleClear(const DrillSite& site) const {
-    constexpr int kSpokes = 6;
-    for (int i = 0; i <= kSpokes; ++i) {
-      const double share = i == 0 ? 0.0 : 0.5;
-      const Vec3 start = site.hole.centre + share * radius_ * spoke(i * kRays / kSpokes);
+    const auto isClear = [&](const Vec3& start) {
       const std::optional<Way> way = wayFrom(start, direction_);
-      if (!way || piece_.isKeptClear(start + way->outer * direction_)) return false;
+      return way && !piece_.isKeptClear(start + way->outer * direction_);
+    };
+    if (!isClear(site.hole.centre)) return false;
+    for (int i = 0; i < Hole::kSides; i += 2) {
+      if (!isClear(site.hole.centre + kBeside * radius_ * spoke(i))) return false;
     }
     return true;
   }
 
   bool walkSides(DrillSite& site) const {
-    site.innerRim.resize(kRays, 3);
-    site.outerRim.resize(kRays, 3);
+    site.innerRim.resize(Hole::kSides, 3);
+    site.outerRim.resize(Hole::kSides, 3);
     Vec3 innerSum = Vec3::Zero();
     Vec3 outerSum = Vec3::Zero();
     std::vector<Way> ways;
     double walls = 0.0;
     double farthest = 0.0;
-    for (int i = 0; i < kRays; ++i) {
+    for (int i = 0; i < Hole::kSides; ++i) {
       const Vec3 start = site.hole.centre + radius_ * spoke(i);
       const std::optional<Way> way = wayFrom(start, side(i));
       if (!way) return false;
@@ -115,7 +117,7 @@ private:
       site.innerFaces.push_back(way->innerFace);
       innerSum += way->innerNormal;
       outerSum += way->outerNormal;
-      walls += (way->outer - way->inner) / kRays;
+      walls += (way->outer - way->inner) / Hole::kSides;
       farthest = std::max(farthest, way->outer * side(i).dot(direction_));
       ways.push_back(*way);
     }
@@ -135,11 +137,10 @@ private:
   /// Whether the surfaces go on smoothly around both rims.
   bool isClearAround(const DrillSite& site) const {
     if (demands_ == Demands::Bare) return true;
-    constexpr double kCollar = 0.5; // radii
-    for (int i = 0; i < kRays; i += 2) {
+    for (int i = 0; i < Hole::kSides; i += 2) {
       const Vec3 middle = 0.5 * (site.innerRim.row(i) + site.outerRim.row(i)).transpose();
       const double wall = (site.outerRim.row(i) - site.innerRim.row(i)).norm();
-      const Vec3 beside = middle + kCollar * radius_ * spoke(i);
+      const Vec3 beside = middle + kBeside * radius_ * spoke(i);
       const double limit = wall + piece_.diameter;
       const double out = piece_.outer.firstHit(beside, direction_, limit);
       const double in = piece_.cavity.firstHit(beside, -direction_, limit);
@@ -174,7 +175,7 @@ Outlet outletAt(const DrillSite& site, const TriangleTree& cavity, const Vec3& u
   const double outer = (site.outerRim * up).minCoeff();
   Outlet outlet;
   outlet.level = std::max(inner, outer);
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (const int v : cavity.faces().row(site.innerFaces[static_cast<std::size_t>(lowest)])) {
     const double height = cavity.vertices().row(v).dot(up);
     if (height >= least) continue;

@@ -12,13 +12,14 @@ struct Hole {
   double radius = 0.0;                      ///< of the narrow end
   double length = 0.0;                      ///< to the wide end, outside of the body
   static constexpr double kWidening = 0.25; ///< radius per length
+  static constexpr int kSides = 24;         ///< of the drill, and rays along it
 
   double radiusAt(double along) const { return radius + kWidening * along; }
 };
 
 /// The drill, with sides that touch its cone, or what is a clearance smaller all round: closed,
-/// outward. `turn`: about its axis, radians.
-TriangleMesh drillOf(const Hole& hole, double clearance, double turn);
+/// outward.
+TriangleMesh drillOf(const Hole& hole, double clearance);
 
 /// Least distance between the axes of two holes.
 double axisDistance(const Hole& a, const Hole& b);

@@ -1,12 +1,11 @@
 #include "core/drill/hole_search.h"
 
+#include "core/base/infinity.h"
 #include "core/base/triangle.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <numeric>
 #include <tuple>
 
@@ -17,32 +16,6 @@ namespace {
 struct Entry {
   Vec3 point, normal;
   double height;
-};
-
-/// The volume of a pool by the height of its surface, at some heights; between them the lower
-/// one's.
-class Volumes {
-public:
-  Volumes(const TriangleTree& cavity, const Vec3& up, const Pool& pool)
-      : profile_({cavity.vertices(), cavity.faces()}, up, pool.vertices),
-        lowest_(profile_.lowest()),
-        step_((std::min(pool.level, profile_.highest()) - lowest_) / kSteps) {
-    for (int i = 0; i <= kSteps; ++i) {
-      values_[static_cast<std::size_t>(i)] = profile_.below(lowest_ + i * step_);
-    }
-  }
-
-  double atLeast(double height) const {
-    const double i = (height - lowest_) / step_;
-    return i >= 0.0 ? values_[static_cast<std::size_t>(std::min(i, 1.0 * kSteps))] : 0.0;
-  }
-  double at(double height) const { return profile_.below(height); }
-
-private:
-  static constexpr int kSteps = 128;
-  PoolProfile profile_;
-  double lowest_, step_;
-  std::array<double, kSteps + 1> values_{};
 };
 
 /// Points all over a pool's bed, the lowest first.
@@ -96,10 +69,8 @@ std::vector<Entry> entriesOf(const Workpiece& piece, const Pool& pool, const Vec
 std::vector<Vec3> directionsAt(const Workpiece& piece, const Entry& entry, const Vec3& up) {
   std::vector<Vec3> directions{entry.normal};
   const auto add = [&](const Vec3& d) {
-    constexpr double kShort = 1e-3;
     constexpr double kAlike = 0.99;
-    if (d.norm() < kShort) return;
-    const Vec3 unit = d.normalized();
+    const Vec3 unit = d.stableNormalized();
     const auto isAlike = [&](const Vec3& other) { return other.dot(unit) > kAlike; };
     if (std::none_of(directions.begin(), directions.end(), isAlike)) directions.push_back(unit);
   };
@@ -123,24 +94,38 @@ bool isApart(const DrillSite& site, const std::vector<DrillSite>& taken) {
 /// A site with what it leaves in the pool and takes out of the wall.
 struct Choice {
   std::optional<DrillSite> site;
-  double cost = std::numeric_limits<double>::infinity();
+  double cost = kInfinity;
+};
+
+/// All that is asked of a place for a pool's outlet.
+struct Search {
+  const Workpiece& piece;
+  const Vec3& up;
+  const std::vector<DrillSite>& taken;
+  std::vector<Entry> entries;
+  PoolProfile profile;
 };
 
 /// The best of those that cost less than a limit.
-Choice bestOf(const Workpiece& piece, const std::vector<Entry>& entries, const Volumes& volumes,
-              const Vec3& up, const std::vector<DrillSite>& taken, Demands demands, double limit) {
+Choice bestOf(const Search& search, Demands demands, double limit) {
+  const auto& [piece, up, taken, entries, profile] = search;
   Choice best;
   double least = limit;
-  for (const Entry& entry : entries) {
-    if (volumes.atLeast(entry.height - piece.diameter) >= least) break;
-    for (const Vec3& direction : directionsAt(piece, entry, up)) {
+  // Where less than the least cost lies below: entries are ascending.
+  const auto isLow = [&](const Entry& entry) {
+    return search.profile.below(entry.height - search.piece.diameter) < least;
+  };
+  auto end = std::partition_point(entries.begin(), entries.end(), isLow);
+  for (auto entry = entries.begin(); entry < end; ++entry) {
+    for (const Vec3& direction : directionsAt(piece, *entry, up)) {
       std::optional<DrillSite> site =
-          drillSite(piece, entry.point, entry.normal, direction, demands);
+          drillSite(piece, entry->point, entry->normal, direction, demands);
       if (!site || site->removed >= least || !isApart(*site, taken)) continue;
-      const double cost = site->removed + volumes.at(outletAt(*site, piece.cavity, up).level);
+      const double cost = site->removed + profile.below(outletAt(*site, piece.cavity, up).level);
       if (cost >= least) continue;
       least = cost;
       best = {std::move(site), cost};
+      end = std::partition_point(entry, end, isLow);
     }
   }
   return best;
@@ -168,47 +153,17 @@ double total(const std::vector<Pool>& pools) {
 /// All of the cavity, as if it had no outlet.
 Pool whole(const Workpiece& piece) {
   Pool pool;
-  pool.level = std::numeric_limits<double>::infinity();
+  pool.level = kInfinity;
   pool.vertices.resize(static_cast<std::size_t>(piece.cavity.vertices().rows()));
   std::iota(pool.vertices.begin(), pool.vertices.end(), 0);
   return pool;
 }
 
-Pool largestOf(std::vector<Pool> pools) {
-  return *std::max_element(pools.begin(), pools.end(),
-                           [](const Pool& a, const Pool& b) { return a.volume < b.volume; });
-}
-
-/// The site with which least stays of all that the cavity holds: the extreme place of it or, where
-/// that drains a small part only, of what it leaves.
-std::optional<DrillSite> siteFor(const Workpiece& piece, const Vec3& up, double toleratedPool,
-                                 const std::vector<DrillSite>& taken) {
-  constexpr int kTries = 3;
-  std::optional<DrillSite> best;
-  double least = std::numeric_limits<double>::infinity();
-  Pool pool = whole(piece);
-  for (int i = 0; i < kTries; ++i) {
-    std::optional<DrillSite> site = bestSite(piece, pool, up, taken, toleratedPool);
-    if (!site) break;
-    std::vector<DrillSite> all = taken;
-    all.push_back(*site);
-    const std::vector<Pool> pools = poolsLeft(piece, up, all);
-    const double left = total(pools);
-    if (left >= least) break;
-    least = left;
-    best = std::move(site);
-    if (left <= toleratedPool) break;
-    pool = largestOf(pools);
-  }
-  return best;
-}
-
 /// For pools that are larger than tolerated, the largest first.
 void drainPools(const Workpiece& piece, const HoleWishes& wishes, std::vector<DrillSite>& sites) {
-  constexpr int kMost = 16;
   constexpr double kWorthwhile = 0.5; // of the pool must go
   std::vector<int> hopeless;          // lowest vertices of pools
-  for (int i = 0; i < kMost; ++i) {
+  while (true) {
     std::vector<Pool> pools = poolsLeft(piece, wishes.up, sites);
     const double before = total(pools);
     std::stable_sort(pools.begin(), pools.end(),
@@ -231,22 +186,20 @@ void drainPools(const Workpiece& piece, const HoleWishes& wishes, std::vector<Dr
 
 std::optional<DrillSite> bestSite(const Workpiece& piece, const Pool& pool, const Vec3& up,
                                   const std::vector<DrillSite>& taken, double toleratedPool) {
-  const std::vector<Entry> entries = entriesOf(piece, pool, up);
-  const Volumes volumes(piece.cavity, up, pool);
-  const auto bestUnder = [&](Demands demands, double limit) {
-    return bestOf(piece, entries, volumes, up, taken, demands, limit);
-  };
-  Choice clear = bestUnder(Demands::Clear, std::numeric_limits<double>::infinity());
+  const Search search{
+      piece, up, taken, entriesOf(piece, pool, up),
+      PoolProfile({piece.cavity.vertices(), piece.cavity.faces()}, up, pool.vertices)};
+  Choice clear = bestOf(search, Demands::Clear, kInfinity);
   if (clear.cost < 2.0 * toleratedPool) return clear.site;
   constexpr double kMuchLess = 0.25;
-  Choice bare = bestUnder(Demands::Bare, kMuchLess * clear.cost);
+  Choice bare = bestOf(search, Demands::Bare, kMuchLess * clear.cost);
   return bare.site ? bare.site : clear.site;
 }
 
 std::vector<DrillSite> holesFor(const Workpiece& piece, const HoleWishes& wishes) {
   std::vector<DrillSite> sites;
   const auto addOne = [&](const Vec3& up) {
-    std::optional<DrillSite> site = siteFor(piece, up, wishes.toleratedPool, sites);
+    std::optional<DrillSite> site = bestSite(piece, whole(piece), up, sites, wishes.toleratedPool);
     if (!site) return false;
     sites.push_back(std::move(*site));
     return true;

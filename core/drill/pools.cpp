@@ -178,12 +178,8 @@ PoolProfile::PoolProfile(const TriangleMesh& cavity, const Vec3& up,
                          const std::vector<int>& vertices) {
   const Vector heights = cavity.vertices * up;
   highest_ = heights.maxCoeff();
-  lowest_ = highest_;
   std::vector<char> isOwn(at(heights.size()), 0);
-  for (const int v : vertices) {
-    isOwn[at(v)] = 1;
-    lowest_ = std::min(lowest_, heights[v]);
-  }
+  for (const int v : vertices) isOwn[at(v)] = 1;
   for (Eigen::Index f = 0; f < cavity.faces.rows(); ++f) {
     // A face belongs to its lowest vertex.
     const auto corners = cavity.faces.row(f);

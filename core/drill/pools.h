@@ -37,8 +37,6 @@ public:
 
   /// Volume of what those vertices bound below a height that is not above the liquid's surface.
   double below(double height) const;
-  double lowest() const { return lowest_; }
-  double highest() const { return highest_; } ///< of the cavity
 
 private:
   struct Part {
@@ -46,7 +44,7 @@ private:
     double projectedArea; ///< seen from below positive where it is a floor
   };
   std::vector<Part> parts_;
-  double lowest_ = 0.0, highest_ = 0.0;
+  double highest_ = 0.0; ///< of the cavity
 };
 
 } // namespace massprops

@@ -1,11 +1,13 @@
 #include "core/goals/filling_levels.h"
 
+#include "core/base/bisection.h"
+#include "core/base/infinity.h"
+#include "core/base/tolerances.h"
 #include "core/mesh/components.h"
 #include "core/model/contact.h"
 #include "core/physics/hydrostatics.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace massprops {
 
@@ -33,7 +35,7 @@ FillingLevels::FillingLevels(const Points& vertices, const Faces& faces) {
 
 double FillingLevels::worst(const Part& part, const TippingDirection& direction,
                             double tangent) const {
-  double farthest = -std::numeric_limits<double>::infinity();
+  double farthest = -kInfinity;
   for (const Vec2& p : part.outline) farthest = std::max(farthest, direction.unit.dot(p));
   double most = 0.0;
   for (std::size_t i = 1; i < part.cuts.size(); ++i) {
@@ -77,12 +79,7 @@ double FillingLevels::leastTangent(const std::vector<TippingDirection>& directio
     // The sum grows with the tangent.
     double low = least - 1.0;
     while (!standsAt(low)) low -= 2.0 * (least - low);
-    constexpr int kBisections = 40;
-    for (int i = 0; i < kBisections; ++i) {
-      const double middle = 0.5 * (low + least);
-      (standsAt(middle) ? low : least) = middle;
-    }
-    least = low;
+    least = lastThatHolds(low, least, kFeasibility, standsAt);
   }
   return least;
 }

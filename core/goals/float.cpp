@@ -2,6 +2,8 @@
 
 #include "core/base/angles.h"
 #include "core/base/symmetric_eigen.h"
+#include "core/base/tolerances.h"
+#include "core/goals/upright.h"
 #include "core/physics/floating_equilibria.h"
 #include "core/physics/hydrostatics.h"
 #include "core/physics/righting_lever.h"
@@ -16,17 +18,11 @@
 namespace massprops {
 namespace {
 
-/// A body that displaces a smaller share of its volume would have to weigh next to nothing.
-constexpr double kLeastDisplaced = 1e-6;
-/// Verdict: how far the body may lie from the wished pose.
-constexpr double kUpright = 1.0;  // degrees
+/// Verdict: how far the waterline may lie from the wished one.
 constexpr double kAtLevel = 0.01; // of the height
-/// A metacentric height, in diagonals, that rounding makes of 0.
-constexpr double kIndifferent = 1e-9;
 /// Poses that only a lower barrier parts, of potential energy over the weight and in diagonals, are
 /// one: facets of round bodies are of that kind. In a print of 100 mm it is a micrometre.
 constexpr double kBarrier = 1e-5;
-constexpr double kLeverStep = 5.0; // degrees, of the curve in the report
 
 /// How the body shall lie in the water; depends on its outer surface only.
 struct WishedPose {
@@ -46,7 +42,8 @@ WishedPose wishedPose(const Points& outer, const Faces& faces, double waterLevel
   pose.draught = waterLevel * pose.height;
   pose.isSubmerged = waterLevel == 1.0;
   const Displacement wished = displacement(outer, faces, Vec3::UnitZ(), bottom + pose.draught);
-  if (!(wished.volume > kLeastDisplaced * pose.volume)) {
+  // The constraint on the mass does not tell less from nothing.
+  if (!(wished.volume > kFeasibility * pose.volume)) {
     throw InvalidInput("Up to water_level = " + toString(waterLevel) +
                        " of its height the model has less than a millionth of its volume, so that "
                        "it would have to weigh next to nothing to float there: raise water_level, "
@@ -127,12 +124,9 @@ struct Afloat {
   std::vector<RightingLever> levers; ///< while it is heeled towards where it leaves the pose first
 };
 
-/// Tilts of one pose differ by less, radians.
-constexpr double kOneTilt = 5.0 / kDegrees;
-
 /// Whether the pose is one of a family that turns without an answer.
 bool turns(const FloatingRest& rest) {
-  return rest.greatestTilt - rest.leastTilt > kOneTilt;
+  return rest.greatestTilt - rest.leastTilt > kHeelStep;
 }
 
 std::string inDegrees(double radians) {
@@ -184,10 +178,10 @@ public:
   bool isReached(const Moments& massMoments) const override {
     const auto& [p, isDry] = atRest(massMoments);
     if (!p.floats || !isDry || !isAtLevel(p) || heel(p) >= kUpright ||
-        p.leastMetacentricHeight <= kIndifferent) {
+        p.leastMetacentricHeight <= kNoLever) {
       return false;
     }
-    return isHeldWithin(copyOf(bodyOf(massMoments)), p.up, kOneTilt, kBarrier) ||
+    return isHeldWithin(copyOf(bodyOf(massMoments)), p.up, kHeelStep, kBarrier) ||
            !turns(own(afloat(massMoments)));
   }
 
@@ -311,8 +305,8 @@ private:
       // What turns without an answer does not come back from any heel.
       if (!turns(own(at))) {
         at.stability = stability(body, copy, at.all);
-        at.levers = rightingLevers(body, copy, own(at).pose, at.stability.direction,
-                                   kLeverStep / kDegrees, at.stability.vanishing);
+        at.levers = rightingLevers(body, copy, own(at).pose, at.stability.direction, kHeelStep,
+                                   at.stability.vanishing);
       }
     }
     afloat_ = {massMoments, std::move(at)};

@@ -1,6 +1,7 @@
 #include "core/goals/hang.h"
 
 #include "core/base/angles.h"
+#include "core/goals/upright.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +14,6 @@ namespace {
 /// The centre of mass hangs at least this deep below the point, in diagonals: nearer to it the
 /// smallest flaw of the print turns the body.
 constexpr double kLeastDepth = 0.01;
-/// Verdict: what the eye still takes for upright.
-constexpr double kUpright = 0.5; // degrees
 
 class HangGoal final : public Goal {
 public:

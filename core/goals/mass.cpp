@@ -1,13 +1,12 @@
 #include "core/goals/mass.h"
 
+#include "core/goals/upright.h"
+
 #include <cmath>
 #include <vector>
 
 namespace massprops {
 namespace {
-
-/// Verdict: as exact as a print can be, as a share of the target.
-constexpr double kExact = 1e-3;
 
 class MassGoal final : public Goal {
 public:

@@ -13,8 +13,7 @@ namespace {
 /// Of the goal's objective over the states: that of the directions in which a body may tip over,
 /// whose tangents have the weight of the centre of mass.
 double sharpness(const Weights& weights) {
-  constexpr double kLeastWeight = 1e-9;
-  return kTippingSharpness / std::max(kLeastWeight, weights.centerOfMass);
+  return weights.centerOfMass > 0.0 ? kTippingSharpness / weights.centerOfMass : kTippingSharpness;
 }
 
 /// Values and derivatives by the variables, of all states one below the other.

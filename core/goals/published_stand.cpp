@@ -1,8 +1,7 @@
 #include "core/goals/published_stand.h"
 
-#include "core/base/angles.h"
+#include "core/goals/tipping.h"
 
-#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -12,49 +11,21 @@ namespace {
 
 /// The centre of mass keeps off the area's border by this share.
 constexpr double kMargin = 0.1;
-/// Constraints of a contact polygon: the solver's time grows with them. One with more edges has one
-/// for all neighbouring edges that turn by no more than a full turn through this number.
-constexpr std::size_t kMostSides = 64;
 
 struct Edge {
   Vec2 normal;  ///< unit, outwards
   double limit; ///< of the centre of mass along the normal
 };
 
-/// Neighbouring edges, from `first` to before `last`.
-struct Side {
-  std::size_t first, last;
-};
-
-std::vector<Edge> edgesOf(const std::vector<Vec2>& polygon) {
-  std::vector<Edge> edges;
-  edges.reserve(polygon.size());
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec2 edge = polygon[(i + 1) % polygon.size()] - polygon[i];
-    const Vec2 normal = Vec2(edge.y(), -edge.x()).normalized();
-    edges.push_back({normal, (1.0 - kMargin) * normal.dot(polygon[i])});
-  }
-  return edges;
-}
-
-std::vector<Side> sidesOf(const std::vector<Edge>& edges) {
-  const double turn = edges.size() > kMostSides ? 2.0 * kPi / kMostSides : 0.0;
-  std::vector<Side> sides;
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    const bool isNext = turn == 0.0 || sides.empty() ||
-                        edges[sides.back().first].normal.dot(edges[e].normal) < std::cos(turn);
-    if (isNext) sides.push_back({e, e});
-    sides.back().last = e + 1;
-  }
-  return sides;
-}
-
 class PublishedStandGoal final : public Goal {
 public:
   PublishedStandGoal(ContactArea area, double lengthUnit, const Weights& weights)
       : area_(std::move(area)), lengthUnit_(lengthUnit), weight_(weights.centerOfMass) {
-    if (!area_.radii) edges_ = edgesOf(area_.polygon);
-    sides_ = sidesOf(edges_);
+    if (area_.radii) return;
+    const std::vector<Vec2> normals = edgeNormals(area_.polygon);
+    for (std::size_t e = 0; e < normals.size(); ++e)
+      edges_.push_back({normals[e], (1.0 - kMargin) * normals[e].dot(area_.polygon[e])});
+    sides_ = polygonSides(normals);
   }
 
   GoalValue objective(const Moments& massMoments) const override {
@@ -104,7 +75,7 @@ public:
   bool usesInertia() const override { return false; }
 
 private:
-  const Edge& worstEdge(const Side& side, const Vec2& c) const {
+  const Edge& worstEdge(const PolygonSide& side, const Vec2& c) const {
     std::size_t worst = side.first;
     const auto beyond = [&](std::size_t e) { return edges_[e].normal.dot(c) - edges_[e].limit; };
     for (std::size_t e = side.first + 1; e < side.last; ++e) {
@@ -115,7 +86,7 @@ private:
 
   ContactArea area_;
   std::vector<Edge> edges_; ///< of a polygon
-  std::vector<Side> sides_;
+  std::vector<PolygonSide> sides_;
   double lengthUnit_;
   double weight_;
 };

@@ -1,6 +1,8 @@
 #include "core/goals/roll_upright.h"
 
 #include "core/base/angles.h"
+#include "core/base/tolerances.h"
+#include "core/goals/tipping.h"
 #include "core/physics/rolling_metacentres.h"
 #include "core/physics/stable_poses.h"
 
@@ -14,21 +16,14 @@ namespace {
 
 /// A swaying body rolls over steps this high, in diagonals: those of the facets of a round foot.
 constexpr double kBarrier = 5e-4;
-/// In proofs: more than that, whatever is rounded.
-constexpr double kProvenBarrier = 1.001 * kBarrier;
-/// Verdict: what the eye still takes for upright.
-constexpr double kUpright = 2.0; // degrees
-/// How sharply the objective tells the lowest metacentre from others, per diagonal. At 200 and more
-/// the lowest one alone moved the centre of mass aside, where a simulated body found shallow wells.
-constexpr double kSharpness = 60.0;
+/// Verdict: a foot that is a facet of a round one leans by as much.
+constexpr double kOnAFacet = 2.0; // degrees
 /// Faces of the hull that are looked at for a proof, over all boxes of centres of mass: a second or
 /// two.
 constexpr std::ptrdiff_t kMostFaces = 6000000;
-/// What holds the centres of mass is taken wider in such steps, in diagonals, while it proves.
-constexpr double kWidening = 2e-3;
-constexpr int kWidenings = 5;
-/// Radius of the disc that is drawn for an area that is a point, in diagonals.
-constexpr double kPointRadius = 0.01;
+/// What holds the centres of mass is taken wider, in diagonals, where that will do as well: it is
+/// proved in half of the time then.
+constexpr double kWidening = 4e-3;
 
 double tiltOf(const Vec3& down) {
   return std::acos(std::clamp(-down.z(), -1.0, 1.0)) * kDegrees;
@@ -39,7 +34,7 @@ StablePoses posesOf(const RollingHull& hull, const Moments& massMoments) {
 }
 
 bool rollsUpright(const StablePoses& poses) {
-  return poses.rests.size() == 1 && tiltOf(poses.down) < kUpright;
+  return poses.rests.size() == 1 && tiltOf(poses.down) < kOnAFacet;
 }
 
 Eigen::AlignedBox3d boundsOf(const Points& points) {
@@ -59,12 +54,12 @@ public:
     const Vec3& c = body.centerOfMass;
     const Vector above = metacentres_.slopes * c.head<2>() - metacentres_.heights;
     const double highest = above.maxCoeff();
-    const Vector shares = (kSharpness * (above.array() - highest)).exp();
+    const Vector shares = (kTippingSharpness * (above.array() - highest)).exp();
     const double sum = shares.sum();
     Eigen::RowVector3d slope;
     slope << shares.transpose() * metacentres_.slopes / sum, 1.0;
     GoalValue f;
-    f.value = weight_ * (c.z() + highest + std::log(sum) / kSharpness);
+    f.value = weight_ * (c.z() + highest + std::log(sum) / kTippingSharpness);
     f.gradient = weight_ * slope * massPropertyGradients(body).centerOfMass;
     return f;
   }
@@ -73,28 +68,22 @@ public:
   GoalConstraints inequalities(const Moments& /*massMoments*/) const override { return {}; }
   bool usesInertia() const override { return false; }
 
-  /// Of the widest half-spaces that will do, for these are proved soonest.
   std::optional<HalfSpaces> noneCan(const Moments& best,
                                     const std::function<HalfSpaces()>& centres) const override {
     if (rollsUpright(posesAt(massProperties(best).centerOfMass))) return std::nullopt;
     HalfSpaces set = centres();
-    std::ptrdiff_t left = kMostFaces;
-    std::optional<HalfSpaces> needed = settled(set, left);
-    left = std::min(left, 4 * (kMostFaces - left));
-    for (int i = 0; needed && i < kWidenings; ++i) {
-      set.limits.array() += kWidening;
-      std::optional<HalfSpaces> wider = settled(set, left);
-      if (!wider) break;
-      needed = std::move(wider);
-    }
-    return needed;
+    std::optional<HalfSpaces> needed = settled(set);
+    if (!needed) return std::nullopt;
+    set.limits.array() += kWidening;
+    std::optional<HalfSpaces> wider = settled(set);
+    return wider ? wider : needed;
   }
 
 private:
   /// Branch and bound over boxes of centres: each has nothing of the set, or keeps a resting pose
-  /// that is not upright, or is cut in two. The half-spaces that this takes. `left`: of the faces
-  /// that may be looked at.
-  std::optional<HalfSpaces> settled(const HalfSpaces& set, std::ptrdiff_t& left) const {
+  /// that is not upright, or is cut in two. The half-spaces that this takes.
+  std::optional<HalfSpaces> settled(const HalfSpaces& set) const {
+    std::ptrdiff_t left = kMostFaces;
     std::vector<Eigen::AlignedBox3d> boxes{boundsOf(hull_.vertices)};
     std::vector<Eigen::AlignedBox3d> outside;
     while (!boxes.empty()) {
@@ -146,8 +135,9 @@ private:
   StablePoses posesAt(const Vec3& centre) const { return stablePoses(hull_, centre, kBarrier); }
 
   bool keepsAnotherRest(const Eigen::AlignedBox3d& box) const {
+    // Higher than the barrier, whatever is rounded.
     const std::vector<HalfSpaces> wells =
-        restingWells(hull_, box.center(), kProvenBarrier, kUpright / kDegrees);
+        restingWells(hull_, box.center(), kBarrier + kFeasibility, kOnAFacet / kDegrees);
     return std::any_of(wells.begin(), wells.end(),
                        [&](const HalfSpaces& well) { return well.contain(box); });
   }
@@ -161,7 +151,7 @@ class RollUprightVerdict final : public Verdict {
 public:
   RollUprightVerdict(ContactArea area, const Points& outer)
       : area_(std::move(area)), hull_(rollingHull(outer)) {
-    if (!area_.radii && area_.polygon.empty()) area_.radii = Vec2(kPointRadius, kPointRadius);
+    if (!area_.radii && area_.polygon.empty()) area_.radii = Vec2(kFootInradius, kFootInradius);
   }
 
   bool isReached(const Moments& massMoments) const override {

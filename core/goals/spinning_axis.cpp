@@ -1,19 +1,13 @@
 #include "core/goals/spinning_axis.h"
 
-#include "core/base/angles.h"
+#include "core/base/circle.h"
 #include "core/base/symmetric_eigen.h"
+#include "core/goals/upright.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace massprops {
-namespace {
-
-/// Verdict: wobble that a hand-spun top does not show.
-constexpr double kSteadyTilt = 0.5;    // degrees
-constexpr double kSteadyOffset = 1e-3; // of the diagonal
-
-} // namespace
 
 GoalValue inertiaRatios(const Moments& massMoments) {
   const MassProperties body = massProperties(massMoments);
@@ -71,11 +65,11 @@ GoalConstraints notTheMiddleMoment(const Moments& massMoments, TurnsAbout point,
 }
 
 bool SpinningAxis::isCentred() const {
-  return offset < kSteadyOffset;
+  return offset < kExact;
 }
 
 bool SpinningAxis::isUpright() const {
-  return tilt < kSteadyTilt;
+  return tilt < kUpright;
 }
 
 void SpinningAxis::describe(double lengthUnit, const std::string& suffix, Report& report) const {
@@ -106,10 +100,9 @@ std::vector<LinearConditions> spinningConditions(const SpinningTask& task) {
   const Vec3& point = task.point;
   const AffineRows equal = axisEqualities(task);
   // I_zz − I_uu = ∫(x − p)² along u − ∫(z − p_z)² for horizontal directions u.
-  constexpr int kDirections = 36; // over half a turn
-  AffineRows less = AffineRows::Zero(kDirections, 11);
-  for (int i = 0; i < kDirections; ++i) {
-    const Vec2 u(std::cos(kPi * i / kDirections), std::sin(kPi * i / kDirections));
+  AffineRows less = AffineRows::Zero(kAround / 2, 11); // half a turn
+  for (int i = 0; i < less.rows(); ++i) {
+    const Vec2 u = onCircle(i);
     const double along = u.dot(point.head<2>());
     less.row(i) << along * along - point.z() * point.z(), -2.0 * along * u.x(),
         -2.0 * along * u.y(), 2.0 * point.z(), u.x() * u.x(), u.y() * u.y(), -1.0,

@@ -1,6 +1,7 @@
 #include "core/goals/stand.h"
 
 #include "core/base/angles.h"
+#include "core/base/tolerances.h"
 #include "core/goals/tipping.h"
 
 #include <algorithm>
@@ -102,7 +103,7 @@ public:
 
   bool isReached(const Moments& massMoments) const override {
     const double angle = tippingAngleOf(area_, massMoments);
-    return angle > 0.0 && angle >= wantedAngle_ - kSameAngle;
+    return angle > 0.0 && angle >= wantedAngle_ - kFeasibility * kDegrees;
   }
 
   std::string worstViolation(const Moments& massMoments) const override {
@@ -158,9 +159,6 @@ public:
   }
 
 private:
-  /// A wanted angle is met within what constraints are.
-  static constexpr double kSameAngle = 1e-4;
-
   ContactArea area_;
   double lengthUnit_;
   double wantedAngle_;

@@ -39,7 +39,7 @@ public:
 
   bool isReached(const Moments& massMoments) const override {
     return stand_->isReached(massMoments) && stand_->isReached(filled_(massMoments)) &&
-           (!levels_ || levels_->stands(directions_, massMoments, filled_.density(), kTilted));
+           (!levels_ || levels_->stands(directions_, massMoments, filled_.density(), 0.0));
   }
 
   std::string whatIsMissed(const Moments& massMoments) const override {
@@ -90,9 +90,6 @@ public:
   }
 
 private:
-  /// The tangent of a tilt that is next to none, and more than rounding.
-  static constexpr double kTilted = 1e-12;
-
   /// Over all levels of the contents.
   double leastAngle(const Moments& empty) const {
     return std::atan(levels_->leastTangent(directions_, empty, filled_.density())) * kDegrees;

@@ -1,18 +1,12 @@
 #include "core/goals/tipping.h"
 
-#include "core/base/angles.h"
+#include "core/base/circle.h"
 #include "core/base/soft_maximum.h"
 
 #include <cmath>
 #include <cstddef>
 
 namespace massprops {
-namespace {
-
-/// Neighbouring edges of a polygon with more count as one where they turn by no more than a full
-/// turn through this number: the solver's time grows with them.
-constexpr std::size_t kMostSides = 64;
-constexpr int kAround = 72;
 
 std::vector<Vec2> edgeNormals(const std::vector<Vec2>& polygon) {
   std::vector<Vec2> normals;
@@ -24,7 +18,16 @@ std::vector<Vec2> edgeNormals(const std::vector<Vec2>& polygon) {
   return normals;
 }
 
-} // namespace
+std::vector<PolygonSide> polygonSides(const std::vector<Vec2>& normals) {
+  const double alike = normals.size() > kAround ? onCircle(1).x() : 1.0;
+  std::vector<PolygonSide> sides;
+  for (std::size_t e = 0; e < normals.size(); ++e) {
+    if (sides.empty() || alike == 1.0 || normals[sides.back().first].dot(normals[e]) < alike)
+      sides.push_back({e, e});
+    sides.back().last = e + 1;
+  }
+  return sides;
+}
 
 double tippingAngleOf(const ContactArea& area, const Moments& massMoments) {
   return tippingAngle(area, massProperties(massMoments).centerOfMass);
@@ -35,17 +38,9 @@ std::vector<TippingDirection> tippingDirections(const ContactArea& area) {
   const auto add = [&](const Vec2& unit) { directions.push_back({unit, extent(area, unit)}); };
   if (!area.radii) {
     const std::vector<Vec2> normals = edgeNormals(area.polygon);
-    const double turn = normals.size() > kMostSides ? 2.0 * kPi / kMostSides : 0.0;
-    for (const Vec2& normal : normals) {
-      const bool isNext =
-          turn == 0.0 || directions.empty() || directions.back().unit.dot(normal) < std::cos(turn);
-      if (isNext) add(normal);
-    }
+    for (const PolygonSide& side : polygonSides(normals)) add(normals[side.first]);
   }
-  for (int i = 0; i < kAround; ++i) {
-    const double angle = 2.0 * kPi * i / kAround;
-    add({std::cos(angle), std::sin(angle)});
-  }
+  for (int i = 0; i < kAround; ++i) add(onCircle(i));
   return directions;
 }
 

@@ -1,6 +1,7 @@
 #include "core/goals/yo_yo.h"
 
 #include "core/goals/spinning_axis.h"
+#include "core/goals/upright.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +10,6 @@
 
 namespace massprops {
 namespace {
-
-/// Verdict: a yo-yo whose centre is farther from the string's plane tilts, in diagonals.
-constexpr double kCentred = 1e-3;
 
 class YoYoGoal final : public Goal {
 public:
@@ -67,7 +65,7 @@ public:
 
   bool isReached(const Moments& massMoments) const override {
     return spins(spinningAxis(massMoments, pivot_.head<2>())) &&
-           std::abs(offMiddle(massMoments)) < kCentred;
+           std::abs(offMiddle(massMoments)) < kExact;
   }
 
   std::string worstViolation(const Moments& massMoments) const override {

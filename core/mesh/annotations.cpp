@@ -25,14 +25,14 @@ int Annotations::addVertex(const Vec3& point, Colour colour) {
 }
 
 void Annotations::addBall(const Vec3& centre, Colour colour) {
-  constexpr int kRings = 11; // without the poles
-  constexpr int kAround = 24;
+  constexpr int kMeridians = 24;
+  const int rings = kMeridians / 2 - 1; // without the poles, as far apart
   const double radius = kBallRadius * box_.diagonal().norm();
   const int south = addVertex(centre - radius * Vec3::UnitZ(), colour);
-  for (int ring = 0; ring < kRings; ++ring) {
-    const double latitude = kPi * ((ring + 1.0) / (kRings + 1.0) - 0.5);
-    for (int i = 0; i < kAround; ++i) {
-      const double longitude = 2.0 * kPi * i / kAround;
+  for (int ring = 0; ring < rings; ++ring) {
+    const double latitude = kPi * ((ring + 1.0) / (rings + 1.0) - 0.5);
+    for (int i = 0; i < kMeridians; ++i) {
+      const double longitude = 2.0 * kPi * i / kMeridians;
       addVertex(centre + radius * Vec3(std::cos(latitude) * std::cos(longitude),
                                        std::cos(latitude) * std::sin(longitude),
                                        std::sin(latitude)),
@@ -40,15 +40,15 @@ void Annotations::addBall(const Vec3& centre, Colour colour) {
     }
   }
   const int north = addVertex(centre + radius * Vec3::UnitZ(), colour);
-  for (int i = 0; i < kAround; ++i) {
-    const auto at = [&](int ring, int place) { return south + 1 + kAround * ring + place; };
-    const int next = (i + 1) % kAround;
+  for (int i = 0; i < kMeridians; ++i) {
+    const auto at = [&](int ring, int place) { return south + 1 + kMeridians * ring + place; };
+    const int next = (i + 1) % kMeridians;
     faces_.emplace_back(south, at(0, next), at(0, i));
-    for (int ring = 0; ring + 1 < kRings; ++ring) {
+    for (int ring = 0; ring + 1 < rings; ++ring) {
       faces_.emplace_back(at(ring, i), at(ring, next), at(ring + 1, next));
       faces_.emplace_back(at(ring, i), at(ring + 1, next), at(ring + 1, i));
     }
-    faces_.emplace_back(at(kRings - 1, i), at(kRings - 1, next), north);
+    faces_.emplace_back(at(rings - 1, i), at(rings - 1, next), north);
   }
 }
 

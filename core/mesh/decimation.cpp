@@ -106,8 +106,7 @@ public:
                         [](double sum, const Quadric& q) { return sum + q.area(); });
     const double areaEach = totalArea / static_cast<double>(std::max<Eigen::Index>(size(), 1));
     double threshold = kLengthWeight * areaEach * areaEach;
-    constexpr int kMostSweeps = 200;
-    for (int sweep = 0; sweep < kMostSweeps && size() > wanted; ++sweep) {
+    while (size() > wanted) {
       const bool near = size() < 3 * wanted;
       const Eigen::Index before = size();
       for (Half& half : halves_) half.nextCost = std::numeric_limits<double>::infinity();

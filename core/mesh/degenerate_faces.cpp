@@ -9,9 +9,6 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-/// Share of the product of two lengths: far above the rounding of a cross product.
-constexpr double kSafe = 1e-11;
-
 } // namespace
 
 std::vector<int> facesWithoutArea(const Points& vertices, const Faces& faces) {

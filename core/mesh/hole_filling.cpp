@@ -75,14 +75,13 @@ Faces holeFilling(const TriangleMesh& patch, const std::vector<int>& border) {
   const Mesh::Halfedge_index first = mesh.halfedge(vertex(border[0]), vertex(border[1]));
   if (!mesh.is_valid(first) || !mesh.is_border(first)) return {};
   std::vector<Mesh::Face_index> added;
-  // The least area takes time up to the cube of the border's length: a long border is first tried
-  // in a plane, a very long one only there and among the triangles of a Delaunay triangulation.
-  constexpr std::size_t kLong = 48;
-  constexpr std::size_t kVeryLong = 128;
+  // The least area takes time up to the cube of the border's length: a long border is tried in a
+  // plane, and among the triangles of a Delaunay triangulation.
+  constexpr std::size_t kLong = 128;
   Processing::triangulate_hole(
       mesh, first, std::back_inserter(added),
       CGAL::parameters::use_2d_constrained_delaunay_triangulation(border.size() > kLong)
-          .do_not_use_cubic_algorithm(border.size() > kVeryLong));
+          .do_not_use_cubic_algorithm(border.size() > kLong));
   Faces faces(static_cast<Eigen::Index>(added.size()), 3);
   for (std::size_t i = 0; i < added.size(); ++i) {
     faces.row(static_cast<Eigen::Index>(i)) = cornersOf(mesh, added[i]);

@@ -43,11 +43,9 @@ public:
     visited.clear();
     Place best;
     goRound(vertex, p, visited, best);
-    constexpr int kMostSteps = 16;
-    for (int step = 0; step < kMostSteps; ++step) {
-      const int last = best.face;
+    for (int last = -1; best.face != last;) {
+      last = best.face;
       for (const int v : mesh_.faces.row(last)) goRound(v, p, visited, best);
-      if (best.face == last) break;
     }
     return best;
   }

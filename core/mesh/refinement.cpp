@@ -1,6 +1,7 @@
 #include "core/mesh/refinement.h"
 
 #include "core/mesh/cgal_mesh.h"
+#include "core/mesh/degenerate_faces.h"
 
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 #include <CGAL/boost/graph/Euler_operations.h>
@@ -57,8 +58,7 @@ struct Diamond {
     const auto side = [&](const Vec3& a, const Vec3& b, const Vec3& p) {
       return (b - a).cross(p - a).dot(normal);
     };
-    constexpr double kLeast = 1e-9;
-    const double least = kLeast * area * area;
+    const double least = kSafe * area * area;
     return side(left, right, to) < -least && side(left, right, from) > least &&
            side(from, to, left) < -least && side(from, to, right) > least;
   }
@@ -70,8 +70,7 @@ struct Diamond {
       const Vec3 b = to - corner;
       return a.dot(b) / a.cross(b).norm();
     };
-    constexpr double kNoticeable = 1e-6;
-    return cotangent(left) + cotangent(right) >= -kNoticeable;
+    return cotangent(left) + cotangent(right) >= -kSafe;
   }
 };
 

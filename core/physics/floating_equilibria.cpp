@@ -1,6 +1,7 @@
 #include "core/physics/floating_equilibria.h"
 
-#include "core/base/angles.h"
+#include "core/base/circle.h"
+#include "core/base/infinity.h"
 #include "core/base/parallel.h"
 #include "core/mesh/decimation.h"
 #include "core/physics/orientation_grid.h"
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -21,10 +21,6 @@ namespace {
 using Index = std::size_t;
 
 constexpr Eigen::Index kCopySize = 500; // vertices
-/// Rests that are nearer to each other than this, radians, are one.
-constexpr double kSame = 0.02;
-/// Of the points of a path between two poses, radians.
-constexpr double kPathStep = 0.1;
 
 std::vector<double> energiesOn(const OrientationGrid& grid, const FloatingBody& copy) {
   std::vector<double> energies(grid.ups.size());
@@ -68,17 +64,15 @@ std::vector<FloatingPose> bottomsOf(const FloatingBody& copy, const std::vector<
 /// orthogonal.
 double lowestAcross(const FloatingBody& copy, const Vec3& m, const Vec3& across) {
   double angle = 0.0;
-  double lowest = std::numeric_limits<double>::infinity();
-  constexpr int kSteps = 6;
-  for (int step = 0; step < kSteps; ++step) {
+  double lowest = kInfinity;
+  while (true) {
     const Inclination at = inclined(copy, std::cos(angle) * m + std::sin(angle) * across);
-    if (at.energy >= lowest - 1e-12) break;
+    if (at.energy >= lowest - kNoLever) return std::min(at.energy, lowest);
     lowest = at.energy;
     const Vec3 t = std::cos(angle) * across - std::sin(angle) * m;
     const double curvature = std::max(std::abs(at.metacentricHeight(t)), 1e-6);
-    angle -= std::clamp(at.lever(t) / curvature, -kPathStep, kPathStep);
+    angle -= std::clamp(at.lever(t) / curvature, -kMostTurn, kMostTurn);
   }
-  return lowest;
 }
 
 /// Energy of the highest point on a path from pose to pose that keeps as low as it can.
@@ -87,10 +81,10 @@ double passBetween(const FloatingBody& copy, const FloatingPose& from, const Flo
   const double angle = std::atan2(from.up.cross(to.up).norm(), from.up.dot(to.up));
   if (angle < kSame) return highest;
   Vec3 along = to.up - from.up.dot(to.up) * from.up;
-  if (along.norm() < 1e-6) return std::numeric_limits<double>::infinity(); // opposite: many ways
+  if (along.norm() < 1e-6) return kInfinity; // opposite: many ways
   along.normalize();
   const Vec3 across = from.up.cross(along);
-  const int steps = static_cast<int>(std::ceil(angle / kPathStep));
+  const int steps = static_cast<int>(std::ceil(angle / kMostTurn));
   for (int step = 1; step < steps; ++step) {
     const double a = angle * step / steps;
     highest =
@@ -139,8 +133,8 @@ private:
     const FloatingPose& b = bottoms_[p.to];
     const double rise = p.height - std::max(a.energy, b.energy);
     const double curvature = std::max(a.greatestMetacentricHeight, b.greatestMetacentricHeight);
-    return rise > barrier_ &&
-           rise < barrier_ + curvature * OrientationGrid::kSpacing * OrientationGrid::kSpacing;
+    const double spacing = orientationGrid().spacing;
+    return rise > barrier_ && rise < barrier_ + curvature * spacing * spacing;
   }
 
   const FloatingBody& copy_;
@@ -330,12 +324,10 @@ FloatingEquilibria floatingEquilibria(const FloatingBody& body, const FloatingBo
 }
 
 bool isHeldWithin(const FloatingBody& copy, const Vec3& up, double heel, double barrier) {
-  constexpr int kDirections = 24;
   const FloatingPose pose = floatingPose(copy, up);
   const Horizontal axes = horizontal(pose.up);
-  for (int k = 0; k < kDirections; ++k) {
-    const double angle = 2.0 * kPi * k / kDirections;
-    const Vec3 towards = axes * Vec2(std::cos(angle), std::sin(angle));
+  for (int k = 0; k < kAround; ++k) {
+    const Vec3 towards = axes * onCircle(k);
     const Vec3 heeled = std::cos(heel) * pose.up + std::sin(heel) * towards;
     if (inclinedEnergy(copy, heeled) <= pose.energy + barrier) return false;
   }

@@ -7,6 +7,9 @@
 
 namespace massprops {
 
+/// Poses that are nearer to each other than this, radians, are one.
+constexpr double kSame = 0.02;
+
 /// Of a few hundred vertices; itself where it has no more.
 TriangleMesh coarseSurface(const Points& vertices, const Faces& faces);
 

@@ -7,11 +7,8 @@
 namespace massprops {
 namespace {
 
-/// Sine of the heel at which the righting arm counts as nothing, and of the push off an unstable
-/// equilibrium.
-constexpr double kLevelled = 1e-10;
+/// Sine of the push off an unstable equilibrium.
 constexpr double kPush = 1e-3;
-constexpr double kMostTurn = 0.2; // radians a step
 
 /// Under water the centre of buoyancy hangs above the centre of mass.
 FloatingPose underWater(const FloatingBody& body) {
@@ -35,8 +32,7 @@ public:
   FloatingPose settled() {
     FloatingPose pose;
     pose.floats = true;
-    constexpr int kMostSteps = 200;
-    for (int step = 0;; ++step) {
+    while (true) {
       const Horizontal axes = horizontal(at_.up);
       const Eigen::Matrix2d hessian =
           axes.transpose() * at_.stiffness * axes - at_.energy * Eigen::Matrix2d::Identity();
@@ -44,8 +40,8 @@ public:
       pose.leastMetacentricHeight = principal.values[0];
       pose.greatestMetacentricHeight = principal.values[1];
       const Vec2 gradient = axes.transpose() * at_.arm;
-      const bool isStable = gradient.norm() < kLevelled && principal.values[0] >= 0.0;
-      if (step == kMostSteps || isStable || !descends(axes * downhill(gradient, principal))) break;
+      const bool isStable = gradient.norm() < kNoLever && principal.values[0] >= 0.0;
+      if (isStable || !descends(axes * downhill(gradient, principal))) break;
     }
     pose.up = at_.up;
     pose.energy = at_.energy;
@@ -58,7 +54,7 @@ private:
 
   static Vec2 downhill(const Vec2& gradient, const Principal& principal) {
     Vec2 turn;
-    if (gradient.norm() < kLevelled) {
+    if (gradient.norm() < kNoLever) {
       turn = kPush * principal.vectors.col(0);
     } else {
       // Newton's step with the curvatures made positive always leads down.
@@ -80,8 +76,7 @@ private:
 
   /// Turns as far as leads down; returns whether it does at all.
   bool descends(Vec3 turn) {
-    constexpr int kMostHalvings = 12;
-    for (int halving = 0; halving < kMostHalvings; ++halving, turn *= 0.5) {
+    for (; turn.norm() > kNoLever; turn *= 0.5) {
       const Inclination next = inclined(body_, (at_.up + turn).normalized());
       if (!isLower(next)) continue;
       at_ = next;

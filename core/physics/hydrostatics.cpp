@@ -117,8 +117,7 @@ std::vector<std::pair<Vec3, Vec3>> levelLines(const Points& vertices, const Face
 }
 
 double levelFor(const Points& vertices, const Faces& faces, const Vec3& up, double volume) {
-  constexpr double kPrecision = 1e-13;
-  return Immersion(vertices, faces, up).levelFor(volume, kPrecision);
+  return Immersion(vertices, faces, up).levelFor(volume);
 }
 
 } // namespace massprops

@@ -62,13 +62,13 @@ Immersion::Sums Immersion::below(double level) const {
   return {volume, area, -0.5 * squares};
 }
 
-double Immersion::levelFor(double volume, double precision) const {
+double Immersion::levelFor(double volume) const {
   double low = lowest_;
   double high = lowest_ + height_;
-  const double tolerance = precision * height_;
+  constexpr double kPrecision = 1e-13; // of the height
+  const double tolerance = kPrecision * height_;
   double level = 0.5 * (low + high);
-  constexpr int kMostSteps = 100;
-  for (int step = 0; step < kMostSteps && high - low > tolerance; ++step) {
+  while (high - low > tolerance) {
     const Sums s = below(level);
     (s.volume < volume ? low : high) = level;
     // dV/dlevel is the waterplane's area: Newton, or halves where that leaves the bracket.

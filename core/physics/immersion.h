@@ -23,9 +23,9 @@ public:
   /// `level`: as up·x.
   Sums below(double level) const;
 
-  /// The level at which the body displaces `volume`, between 0 and the body's own; `precision`: in
-  /// shares of the body's height.
-  double levelFor(double volume, double precision) const;
+  /// The level at which the body displaces `volume`, between 0 and the body's own, but for
+  /// roundings.
+  double levelFor(double volume) const;
 
 private:
   /// `shadow`: area of the face's projection along `up`, positive where it looks up. Heights over

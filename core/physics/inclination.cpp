@@ -41,10 +41,9 @@ Inclination inclined(const FloatingBody& body, const Vec3& up) {
 
 double inclinedEnergy(const FloatingBody& body, const Vec3& up) {
   if (isUnderWater(body)) return (body.centre - body.middle).dot(up);
-  // level − B·up is the mean depth, and stationary in the level: its error counts squared.
-  constexpr double kPrecision = 1e-6;
+  // level − B·up is the mean depth.
   const Immersion immersion(body.vertices, body.faces, up);
-  const double level = immersion.levelFor(body.displaced, kPrecision);
+  const double level = immersion.levelFor(body.displaced);
   return body.centre.dot(up) - level + immersion.below(level).depths / body.displaced;
 }
 

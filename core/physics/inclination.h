@@ -25,6 +25,14 @@ FloatingBody floatingBody(Points vertices, Faces faces, const Vec3& centre, doub
 /// under water: it hovers.
 constexpr double kNeutral = 1e-4;
 
+/// What rounding makes of a lever or a metacentric height of 0, in the body's unit, which is its
+/// diagonal where it counts.
+constexpr double kNoLever = 1e-9;
+
+/// A search for a pose turns the body by no more than this in a step, radians: waterlines, and with
+/// them what is known of the energy, change from there on.
+constexpr double kMostTurn = 0.1;
+
 bool sinks(const FloatingBody& body);
 bool isUnderWater(const FloatingBody& body);
 
@@ -46,7 +54,7 @@ struct Inclination {
 /// Exact. \pre the body does not sink. docs/math.md "Floating pose"
 Inclination inclined(const FloatingBody& body, const Vec3& up);
 
-/// Its `energy` alone, to 1e-12 of the body's height, in some half of the time.
+/// Its `energy` alone, in some half of the time.
 double inclinedEnergy(const FloatingBody& body, const Vec3& up);
 
 /// Two horizontal unit vectors, orthogonal to each other, one a column.

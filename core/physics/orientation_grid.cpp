@@ -51,7 +51,9 @@ OrientationGrid gridOf(int cuts) {
       const Index i = f[k];
       const Index j = f[(k + 1) % 3];
       // Each edge comes in both of its faces; their orientations differ from face to face.
-      if (middles.try_emplace(std::minmax(i, j), 0).second) grid.edges.push_back({i, j});
+      if (!middles.try_emplace(std::minmax(i, j), 0).second) continue;
+      grid.edges.push_back({i, j});
+      grid.spacing = std::max(grid.spacing, (grid.ups[i] - grid.ups[j]).norm());
     }
   }
   return grid;

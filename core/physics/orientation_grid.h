@@ -12,8 +12,8 @@ namespace massprops {
 /// Unit vectors of the body that may look up, and which of them are neighbours: corners and edges
 /// of an icosahedron whose faces are cut in four, four times.
 struct OrientationGrid {
-  static constexpr double kSpacing = 0.08; ///< radians, at most, between neighbours
-  std::vector<Vec3> ups;                   ///< 2562
+  double spacing = 0.0;  ///< between neighbours, at most
+  std::vector<Vec3> ups; ///< 2562
   std::vector<std::array<std::size_t, 2>> edges;
 };
 

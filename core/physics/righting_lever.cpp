@@ -1,12 +1,14 @@
 #include "core/physics/righting_lever.h"
 
-#include "core/base/angles.h"
+#include "core/base/bisection.h"
+#include "core/base/circle.h"
+#include "core/base/infinity.h"
 #include "core/base/parallel.h"
 #include "core/base/symmetric_eigen.h"
+#include "core/base/tolerances.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 namespace massprops {
@@ -14,14 +16,6 @@ namespace {
 
 using Index = std::size_t;
 
-/// Directions of heel that are tried.
-constexpr int kDirections = 48;
-/// The first heel, and the least step to the next.
-constexpr double kLeastStep = 1.0 / kDegrees;
-/// At most, where an opening may get under water and out of it again.
-constexpr double kFloodingStep = 5.0 / kDegrees;
-/// A lever, in shares of the arm, that counts as none.
-constexpr double kNoLever = 1e-9;
 /// How far the unstable equilibrium may be from where the copy has one.
 constexpr double kFarthest = 15.0 / kDegrees;
 
@@ -36,7 +30,7 @@ Heeled heeled(const Vec3& up, const Vec3& t, double angle) {
 /// Where a body that is heeled in one direction, without trimming, turns back no more.
 struct End {
   double heel = kPi;
-  double energy = std::numeric_limits<double>::infinity();
+  double energy = kInfinity;
   bool floods = false;
 };
 
@@ -49,15 +43,15 @@ public:
       : body_(body), pose_(pose), towards_(towards) {}
 
   End end() const {
-    const double mostStep = body_.rims.rows() > 0 ? kFloodingStep : 0.5 * kPi;
+    const double mostStep = body_.rims.rows() > 0 ? kHeelStep : 0.5 * kPi;
     double before = 0.0;
-    double heel = kLeastStep;
+    double heel = kSame;
     while (heel < kPi) {
       const Inclination now = at(heel);
       if (isOver(now, heel)) return between(before, heel);
       before = heel;
       const double safe = std::atan2(lever(now, heel), now.energy);
-      heel += std::clamp(safe, kLeastStep, mostStep);
+      heel += std::clamp(safe, kSame, mostStep);
     }
     return {};
   }
@@ -68,17 +62,14 @@ private:
     return now.lever(heeled(pose_.up, towards_, heel).towards);
   }
   bool isOver(const Inclination& now, double heel) const {
-    return !now.isDry || lever(now, heel) <= kNoLever * now.arm.norm();
+    return !now.isDry || lever(now, heel) <= kNoLever;
   }
 
   End between(double before, double after) const {
-    constexpr int kHalvings = 11;
-    for (int halving = 0; halving < kHalvings; ++halving) {
-      const double middle = 0.5 * (before + after);
-      (isOver(at(middle), middle) ? after : before) = middle;
-    }
-    const Inclination end = at(after);
-    return {after, end.energy, !end.isDry};
+    const double heel = lastThatHolds(after, before, kFeasibility,
+                                      [&](double middle) { return isOver(at(middle), middle); });
+    const Inclination end = at(heel);
+    return {heel, end.energy, !end.isDry};
   }
 
   const FloatingBody& body_;
@@ -89,10 +80,7 @@ private:
 std::vector<Vec3> directionsAround(const Vec3& up) {
   const Horizontal axes = horizontal(up);
   std::vector<Vec3> result;
-  for (int k = 0; k < kDirections; ++k) {
-    const double angle = 2.0 * kPi * k / kDirections;
-    result.emplace_back(axes * Vec2(std::cos(angle), std::sin(angle)));
-  }
+  for (int k = 0; k < kAround; ++k) result.emplace_back(axes * onCircle(k));
   return result;
 }
 
@@ -123,13 +111,12 @@ std::optional<Inclination> saddleNear(const FloatingBody& body, const Vec3& star
     const bool isLevel = curvature[1] < kLevel * curvature[0];
     const Vec2 gradient = principal.vectors.transpose() * (axes.transpose() * at.arm);
     const double slope = isLevel ? std::abs(gradient[0]) : gradient.norm();
-    if (slope <= kNoLever * at.arm.norm()) {
+    if (slope <= kNoLever) {
       const bool isSaddle = principal.values[0] < 0.0 && (isLevel || principal.values[1] > 0.0);
       return isSaddle ? std::optional(at) : std::nullopt;
     }
     Vec2 turn(gradient[0] / std::max(curvature[0], 1e-6), 0.0);
     if (!isLevel) turn[1] = -gradient[1] / std::max(curvature[1], 1e-6);
-    constexpr double kMostTurn = 0.05;
     turn *= std::min(1.0, kMostTurn / turn.norm());
     at = inclined(body, (at.up + axes * (principal.vectors * turn)).normalized());
   }
@@ -178,8 +165,7 @@ double trimOf(const FloatingBody& copy, const Heeled& at, double guess) {
     const Heeled trimmed = heeled(at.up, axis, trim);
     const Inclination state = inclined(copy, trimmed.up);
     const double curvature = std::max(std::abs(state.metacentricHeight(trimmed.towards)), 1e-6);
-    constexpr double kMostTrim = 0.1;
-    trim -= std::clamp(state.lever(trimmed.towards) / curvature, -kMostTrim, kMostTrim);
+    trim -= std::clamp(state.lever(trimmed.towards) / curvature, -kMostTurn, kMostTurn);
   }
   return trim;
 }

@@ -8,6 +8,10 @@
 
 namespace massprops {
 
+/// Between points of the curve of levers, radians; tilts that differ by less count as one, and an
+/// opening that is under water on less of the way is not seen.
+constexpr double kHeelStep = 5.0 / kDegrees;
+
 struct RightingLever {
   double heel;  ///< radians
   double lever; ///< GZ, length; positive: it turns back

@@ -1,6 +1,6 @@
 #include "core/physics/rolling_metacentres.h"
 
-#include "core/base/angles.h"
+#include "core/base/circle.h"
 
 #include <cmath>
 
@@ -11,17 +11,15 @@ namespace {
 /// its highest poses a body rolls off to one side or another. docs/math.md "Roll upright"
 constexpr double kStep = kPi / 45.0;
 constexpr Eigen::Index kTilts = 37;
-constexpr Eigen::Index kMeridians = 72;
 
 } // namespace
 
 RollingMetacentres rollingMetacentres(const Points& points) {
   RollingMetacentres result;
-  result.slopes.resize(kTilts * kMeridians, 2);
-  result.heights.resize(kTilts * kMeridians);
-  for (Eigen::Index m = 0; m < kMeridians; ++m) {
-    const double azimuth = 2.0 * kPi * static_cast<double>(m) / static_cast<double>(kMeridians);
-    const Vec2 outwards(std::cos(azimuth), std::sin(azimuth));
+  result.slopes.resize(kTilts * kAround, 2);
+  result.heights.resize(kTilts * kAround);
+  for (int meridian = 0; meridian < kAround; ++meridian) {
+    const Vec2 outwards = onCircle(meridian);
     const Vector along = points.leftCols<2>() * outwards;
     const auto support = [&](double tilt) {
       return (std::sin(tilt) * along - std::cos(tilt) * points.col(2)).maxCoeff();
@@ -31,7 +29,7 @@ RollingMetacentres rollingMetacentres(const Points& points) {
       // h(u) = H(u) − u·c, u = (sin ϑ e, −cos ϑ): the rise over a step, by its length in −cos ϑ.
       const double middle = (static_cast<double>(t) + 0.5) * kStep;
       const double above = support(static_cast<double>(t + 1) * kStep);
-      const Eigen::Index row = m * kTilts + t;
+      const Eigen::Index row = meridian * kTilts + t;
       result.slopes.row(row) = outwards.transpose() / std::tan(middle);
       result.heights[row] = (above - below) / (2.0 * std::sin(middle) * std::sin(0.5 * kStep));
       below = above;

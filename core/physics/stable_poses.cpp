@@ -170,11 +170,19 @@ std::vector<RollingHull::Edge> edgesOf(const Faces& faces) {
   return edges;
 }
 
+/// What a body rolls through with its centre of mass at one point.
+struct Landscape {
+  const RollingHull& hull;
+  const Vec3& centre;
+  const Rests rests = restsOf(hull, centre);
+  const std::vector<Passage> passages = passagesOf(hull, centre, rests);
+};
+
 /// The centres of mass for which all passages out of a set of faces are higher by the barrier than
 /// one of these, `rest`.
-HalfSpaces wellOf(const RollingHull& hull, const Vec3& centre, const Rests& rests,
-                  const std::vector<Passage>& passages, const std::vector<char>& isInside,
-                  Index rest, double barrier) {
+HalfSpaces wellOf(const Landscape& land, const std::vector<char>& isInside, Index rest,
+                  double barrier) {
+  const auto& [hull, centre, rests, passages] = land;
   // On the way over an edge the height is at least u·(v − c), with any direction u between those of
   // the faces and v on the edge; at rest it is n·(w − c). Of some u the one whose border is
   // farthest from the centre.
@@ -203,8 +211,8 @@ HalfSpaces wellOf(const RollingHull& hull, const Vec3& centre, const Rests& rest
 }
 
 /// The centres of mass for which no direction within `away` of −z is as low as the face `rest`.
-HalfSpaces belowUpright(const RollingHull& hull, const Vec3& centre, const Rests& rests, Index rest,
-                        double away) {
+HalfSpaces belowUpright(const Landscape& land, Index rest, double away) {
+  const auto& [hull, centre, rests, passages] = land;
   constexpr int kCorners = 12; // of a polygon around the cap of these directions, cut in triangles
   const auto corner = [&](int i) {
     const double azimuth = 2.0 * kPi * i / kCorners;
@@ -267,8 +275,8 @@ StablePoses stablePoses(const RollingHull& hull, const Vec3& centre, double barr
 
 std::vector<HalfSpaces> restingWells(const RollingHull& hull, const Vec3& centre, double barrier,
                                      double away) {
-  const Rests rests = restsOf(hull, centre);
-  const std::vector<Passage> passages = passagesOf(hull, centre, rests);
+  const Landscape land{hull, centre};
+  const Rests& rests = land.rests;
   const Index upright = uprightFace(rests);
   std::vector<HalfSpaces> wells;
   const auto end = [&](Index bottom, const Pools& pools) {
@@ -281,11 +289,11 @@ std::vector<HalfSpaces> restingWells(const RollingHull& hull, const Vec3& centre
       if (-rests.normals[f].z() >= std::cos(away)) return;
       if (!rest || rests.heights[f] < rests.heights[*rest]) rest = f;
     }
-    wells.push_back(wellOf(hull, centre, rests, passages, isOff, *rest, barrier));
+    wells.push_back(wellOf(land, isOff, *rest, barrier));
   };
-  const Index lowest = flood(rests, passages, barrier, end);
+  const Index lowest = flood(rests, land.passages, barrier, end);
   if (-rests.normals[lowest].z() < std::cos(away)) {
-    wells.push_back(belowUpright(hull, centre, rests, lowest, away));
+    wells.push_back(belowUpright(land, lowest, away));
   }
   return wells;
 }

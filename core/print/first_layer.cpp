@@ -1,8 +1,9 @@
 #include "core/print/first_layer.h"
 
+#include "core/base/circle.h"
+#include "core/base/infinity.h"
+
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -61,11 +62,9 @@ FirstLayer firstLayer(const Points& vertices, const Faces& faces, double height)
   const Vec2 centre = origin + whole.segment<2>(1) / layer.area;
   const Eigen::Matrix<double, 6, 1> central = integrals(border, centre);
 
-  constexpr int kDirections = 72;
-  layer.sectionModulus = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kDirections; ++i) {
-    const double angle = 2.0 * M_PI * i / kDirections;
-    const Vec2 u(std::cos(angle), std::sin(angle));
+  layer.sectionModulus = kInfinity;
+  for (int i = 0; i < kAround; ++i) {
+    const Vec2 u = onCircle(i);
     const double inertia =
         u.x() * u.x() * central[3] + 2.0 * u.x() * u.y() * central[4] + u.y() * u.y() * central[5];
     double reach = 0.0;

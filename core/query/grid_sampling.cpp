@@ -46,7 +46,6 @@ private:
 } // namespace
 
 Grid gridAround(const Points& points, const Mat3& rotation, double edge, double mostNodes) {
-  constexpr double kMargin = 3.0;
   const Points turned = points * rotation.transpose();
   const Vec3 low = turned.colwise().minCoeff().transpose();
   const Vec3 high = turned.colwise().maxCoeff().transpose();
@@ -54,9 +53,9 @@ Grid gridAround(const Points& points, const Mat3& rotation, double edge, double 
     Grid grid;
     grid.rotation = rotation;
     grid.edge = wanted;
-    grid.origin = low - Vec3::Constant(kMargin * wanted);
+    grid.origin = low - Vec3::Constant(kSampledBand * wanted);
     grid.counts =
-        ((high - low) / wanted).array().ceil().cast<int>() + 2 * static_cast<int>(kMargin) + 1;
+        ((high - low) / wanted).array().ceil().cast<int>() + 2 * static_cast<int>(kSampledBand) + 1;
     return grid;
   };
   const Grid grid = gridOf(edge);

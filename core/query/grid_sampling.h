@@ -14,7 +14,7 @@ using SignedLength = std::function<double(const Vec3& x, double horizon)>;
 /// Values are known up to so many edges from where they vanish.
 constexpr float kSampledBand = 4.0F;
 
-/// Around the points, a few nodes more on each side. `edge`: a length in their unit, made longer
+/// Around the points, with the band on each side. `edge`: a length in their unit, made longer
 /// where there would be more than about `mostNodes` nodes.
 Grid gridAround(const Points& points, const Mat3& rotation, double edge, double mostNodes);
 

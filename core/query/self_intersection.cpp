@@ -1,8 +1,10 @@
 #include "core/query/self_intersection.h"
 
+#include "core/base/infinity.h"
 #include "core/base/parallel.h"
-#include "core/base/triangle.h"
 #include "core/mesh/connectivity.h"
+#include "core/mesh/degenerate_faces.h"
+#include "core/query/embedded_fans.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
@@ -23,19 +25,10 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 /// Triangles that are looked at together.
 constexpr Eigen::Index kBlock = 32;
 /// Around a block, in edges: neighbours whose boxes meet those of the block belong to its patch,
-/// too, and need not be compared.
+/// too, and need not be compared. Without it an inspection takes half as much time again.
 constexpr double kMargin = 0.25;
-/// Of one block.
-constexpr int kMostPatches = 4;
 /// Each has an array over all faces, so that there are to be few.
 constexpr Eigen::Index kMostChunks = 16;
-/// Share of the product of two lengths: far above the rounding of a determinant.
-constexpr double kSafe = 1e-11;
-
-struct Normal {
-  Vec3 vector;   ///< `areaNormal`
-  double length; ///< product of the lengths of both edges, the scale of the vector's rounding
-};
 
 /// Of the faces from a place on, each once, ascending.
 void leaveOne(std::size_t from, std::vector<int>& faces) {
@@ -52,10 +45,8 @@ public:
                     const SimilarSurface* similar)
       : x_(vertices), faces_(faces), tree_(tree), similar_(similar),
         opposite_(oppositeHalfEdges(x_.rows(), faces_)),
-        isEmbedded_(static_cast<std::size_t>(x_.rows())),
-        size_((x_.colwise().maxCoeff() - x_.colwise().minCoeff()).maxCoeff()) {
-    findEmbeddedFans();
-  }
+        isEmbedded_(embeddedFans(x_, faces_, opposite_)),
+        size_((x_.colwise().maxCoeff() - x_.colwise().minCoeff()).maxCoeff()) {}
 
   std::vector<int> find() const {
     const Eigen::Index blocks = chunkCount(faces_.rows(), kBlock);
@@ -84,7 +75,7 @@ private:
     std::vector<int> queue, doubtful;
 
     void beginBlock() {
-      if (next > std::numeric_limits<std::uint16_t>::max() - kMostPatches) {
+      if (next > std::numeric_limits<std::uint16_t>::max() - kBlock) {
         std::fill(of.begin(), of.end(), std::uint16_t{0});
         next = 1;
       }
@@ -100,79 +91,12 @@ private:
   static std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
   Vec3 point(int v) const { return x_.row(v).transpose(); }
 
-  Normal normal(Eigen::Index f) const {
-    const Vec3 a = point(faces_(f, 0));
-    const Vec3 ab = point(faces_(f, 1)) - a;
-    const Vec3 ac = point(faces_(f, 2)) - a;
-    return {areaNormal(x_, faces_, f), std::sqrt(ab.squaredNorm() * ac.squaredNorm())};
-  }
-
   using Box = Eigen::AlignedBox3d;
 
   Box boxOf(int f) const {
     Box box;
     for (const int v : faces_.row(f)) box.extend(point(v));
     return box;
-  }
-
-  static bool facesTowards(const Normal& n, const Vec3& unit) {
-    return n.vector.dot(unit) > kSafe * n.length;
-  }
-
-  /// A vertex's fan is embedded when all its triangles face one direction and go round it once,
-  /// seen from there.
-  void findEmbeddedFans() {
-    // A corner of each vertex, and how many there are: those of two fans that meet in it do not
-    // form one.
-    constexpr std::uint8_t kMany = std::numeric_limits<std::uint8_t>::max();
-    std::vector<int> cornerOf(isEmbedded_.size(), -1);
-    std::vector<std::uint8_t> count(isEmbedded_.size(), 0);
-    for (int corner = 0; corner < static_cast<int>(faces_.size()); ++corner) {
-      const std::size_t v = at(faces_.data()[corner]);
-      cornerOf[v] = corner;
-      if (count[v] < kMany) ++count[v];
-    }
-    constexpr Eigen::Index kChunk = 4096;
-    forChunks(x_.rows(), kChunk, [&](const Chunk& chunk) {
-      std::vector<int> fan;
-      for (Eigen::Index v = chunk.begin; v < chunk.end; ++v) {
-        const std::size_t corners = count[at(v)];
-        fan.clear();
-        int corner = cornerOf[at(v)];
-        while (corner >= 0 && fan.size() < corners && (fan.empty() || corner != fan.front())) {
-          fan.push_back(corner);
-          corner = opposite_[at(previousHalfEdge(corner))];
-        }
-        const bool isAll =
-            corners < kMany && fan.size() == corners && !fan.empty() && corner == fan.front();
-        isEmbedded_[at(v)] = isAll && isEmbedded(static_cast<int>(v), fan) ? 1 : 0;
-      }
-    });
-  }
-
-  /// \param fan all corners of the vertex, closed
-  bool isEmbedded(int v, const std::vector<int>& fan) const {
-    Vec3 axis = Vec3::Zero();
-    for (const int corner : fan) {
-      const Vec3 n = normal(corner / 3).vector;
-      const double length = n.norm();
-      if (length > 0.0) axis += n / length;
-    }
-    axis.normalize();
-    if (!std::all_of(fan.begin(), fan.end(),
-                     [&](int corner) { return facesTowards(normal(corner / 3), axis); })) {
-      return false;
-    }
-    // In projection every triangle turns to the left by less than half a turn: the link passes
-    // from below to above a line through the vertex, on its right, once a turn.
-    const Vec3 across = axis.unitOrthogonal();
-    int turns = 0;
-    for (const int corner : fan) {
-      const Vec3 from = point(faces_.data()[nextHalfEdge(corner)]) - point(v);
-      const Vec3 to = point(faces_.data()[previousHalfEdge(corner)]) - point(v);
-      if (from.dot(across) < 0.0 && to.dot(across) >= 0.0) ++turns;
-    }
-    return turns == 1;
   }
 
   /// A rectangle across `axis`, a little larger and a little smaller than it is.
@@ -208,7 +132,7 @@ private:
       const bool mayBeIn = window.mayMeet(shadow[k], shadow[k]);
       if (mayBeIn && isEmbedded_[at(faces_(f, static_cast<int>(k)))] == 0) return false;
     }
-    return facesTowards(normal(f), window.axis);
+    return facesTowards(faceNormal(x_, faces_, f), window.axis);
   }
 
   /// The faces that are connected within the cylinder over the window with face `seed`, if all of
@@ -288,7 +212,7 @@ private:
     block.end = std::min(faces_.rows(), block.begin + kBlock);
     for (Eigen::Index i = block.begin; i < block.end; ++i) {
       const int f = faceAt(i);
-      const Normal n = normal(f);
+      const FaceNormal n = faceNormal(x_, faces_, f);
       const double length = n.vector.norm();
       if (length > 0.0) block.axis += n.vector / length;
       block.edge += std::sqrt(n.length);
@@ -317,7 +241,7 @@ private:
     window.u = window.axis.unitOrthogonal();
     window.w = window.axis.cross(window.u);
     window.origin = block.all.min();
-    window.lower.setConstant(std::numeric_limits<double>::infinity());
+    window.lower.setConstant(kInfinity);
     window.upper = -window.lower;
     for (Eigen::Index i = block.begin; i < block.end; ++i) {
       for (const Vec2& p : shadowOf(faceAt(i), window)) {
@@ -334,11 +258,9 @@ private:
   void searchBlock(Eigen::Index number, Patches& patches, std::vector<int>& found) const {
     const Block block = blockAt(number);
     patches.beginBlock();
-    constexpr double kOneSided = 0.5;
-    if (block.axis.norm() > kOneSided) {
+    if (block.axis.norm() > 0.0) {
       const Window window = windowOver(block);
-      for (Eigen::Index i = block.begin;
-           i < block.end && patches.next < patches.first + kMostPatches; ++i) {
+      for (Eigen::Index i = block.begin; i < block.end; ++i) {
         const int f = faceAt(i);
         if (patches.of[at(f)] >= patches.first) continue;
         if (!growPatch(f, window, patches)) break;
@@ -385,9 +307,9 @@ private:
     for (int turn = 0; turn < 2; ++turn) {
       const int one = turn == 0 ? f : g;
       const int two = turn == 0 ? g : f;
-      const Normal n = normal(one);
+      const FaceNormal n = faceNormal(x_, faces_, one);
       const Vec3 a = point(faces_(one, 0));
-      double least = std::numeric_limits<double>::infinity();
+      double least = kInfinity;
       double most = -least;
       double scale = 0.0;
       for (int k = 0; k < 3; ++k) {

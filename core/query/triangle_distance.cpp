@@ -1,50 +1,13 @@
 #include "core/query/triangle_distance.h"
 
+#include "core/base/infinity.h"
 #include "core/base/triangle.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace massprops {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-Vec3 nearestOnTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 w = nearestWeights(p, a, b, c);
-  return w[0] * a + w[1] * b + w[2] * c;
-}
-
-/// [Eri05, Sec. 5.1.9]
-double squaredDistanceOfSegments(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
-  const Vec3 d1 = q - p;
-  const Vec3 d2 = s - r;
-  const Vec3 w = p - r;
-  const double a = d1.squaredNorm();
-  const double e = d2.squaredNorm();
-  const double f = d2.dot(w);
-  const double c = d1.dot(w);
-  const double b = d1.dot(d2);
-  const double denominator = a * e - b * b;
-  double t = 0.0;
-  double u = 0.0;
-  if (a > 0.0) {
-    // Nearly parallel: any point will do, for ends are compared with the other triangle as well.
-    if (denominator > 1e-14 * a * e) t = std::clamp((b * f - c * e) / denominator, 0.0, 1.0);
-    u = e > 0.0 ? (b * t + f) / e : 0.0;
-    if (!(u >= 0.0)) {
-      u = 0.0;
-      t = std::clamp(-c / a, 0.0, 1.0);
-    } else if (u > 1.0) {
-      u = 1.0;
-      t = std::clamp((b - c) / a, 0.0, 1.0);
-    }
-  } else if (e > 0.0) {
-    u = std::clamp(f / e, 0.0, 1.0);
-  }
-  return (w + t * d1 - u * d2).squaredNorm();
-}
 
 /// Whether an edge of t goes through the inside of the triangle (a, b, c).
 bool pierces(const Vec3 (&t)[3], const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -92,9 +55,41 @@ double squaredGapAlong(const Vec3& axis, const Vec3 (&s)[3], const Vec3 (&t)[3])
 
 } // namespace
 
+double squaredDistanceOfSegments(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
+  const Vec3 d1 = q - p;
+  const Vec3 d2 = s - r;
+  const Vec3 w = p - r;
+  const double a = d1.squaredNorm();
+  const double e = d2.squaredNorm();
+  const double f = d2.dot(w);
+  const double c = d1.dot(w);
+  const double b = d1.dot(d2);
+  const double denominator = a * e - b * b;
+  double t = 0.0;
+  double u = 0.0;
+  if (a > 0.0) {
+    // Nearly parallel: any point will do, for ends are compared with the other triangle as well.
+    if (denominator > 1e-14 * a * e) t = std::clamp((b * f - c * e) / denominator, 0.0, 1.0);
+    u = e > 0.0 ? (b * t + f) / e : 0.0;
+    if (!(u >= 0.0)) {
+      u = 0.0;
+      t = std::clamp(-c / a, 0.0, 1.0);
+    } else if (u > 1.0) {
+      u = 1.0;
+      t = std::clamp((b - c) / a, 0.0, 1.0);
+    }
+  } else if (e > 0.0) {
+    u = std::clamp(f / e, 0.0, 1.0);
+  }
+  return (w + t * d1 - u * d2).squaredNorm();
+}
+
+Vec3 nearestOnTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 w = nearestWeights(p, a, b, c);
+  return w[0] * a + w[1] * b + w[2] * c;
+}
+
 double squaredDistanceBelow(double squaredBound, const Vec3 (&s)[3], const Vec3 (&t)[3]) {
-  constexpr double kUpToRounding = 1.0 + 1e-9;
-  constexpr double kKnownDirection = 1e-14;
   constexpr int kSteps = 4;
   Vec3 ofS = Vec3::Zero();
   Vec3 ofT = (t[0] + t[1] + t[2]) / 3.0;
@@ -105,10 +100,11 @@ double squaredDistanceBelow(double squaredBound, const Vec3 (&s)[3], const Vec3 
       ofT = nearestOnTriangle(ofS, t[0], t[1], t[2]);
     }
     const Vec3 way = ofT - ofS;
-    const double atLeast = kUpToRounding * squaredGapAlong(way, s, t);
+    const double atLeast = (1.0 + kMeasured) * squaredGapAlong(way, s, t);
     if (atLeast >= squaredBound) return squaredBound;
     const double atMost = way.squaredNorm();
-    if (atLeast >= atMost && atMost > kKnownDirection * squaredBound) return atMost;
+    const bool isDirectionKnown = atMost > kMeasured * kMeasured * squaredBound;
+    if (atLeast >= atMost && isDirectionKnown) return atMost;
   }
   return std::min(squaredBound, squaredDistanceOfTriangles(s, t));
 }

@@ -1,15 +1,16 @@
 #include "core/query/triangle_packet.h"
 
-#include <limits>
+#include "core/mesh/degenerate_faces.h"
 
 namespace massprops {
 namespace {
 
 using Vectors = TrianglePacket::Vectors;
 
-constexpr float kUnits = 16.0F * std::numeric_limits<float>::epsilon();
 /// Of products, so that floats hold their sums.
 constexpr float kMostHeld = 1e37F;
+/// Of divisors, so that floats hold quotients.
+constexpr float kLeast = 1e-30F;
 
 Vectors operator-(const Vectors& a, const Vectors& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
@@ -52,15 +53,13 @@ Lanes mostOf(const Lanes& a, const Lanes& b, const Lanes& c) {
 /// longer, and gaps that come of products which floats cannot hold as none.
 [[gnu::always_inline]] inline Lanes squaredLength(const Lanes& gap, const Vectors& axis,
                                                   const Lanes& size) {
-  constexpr float kLeast = 1e-30F;
   const Lanes held = Lanes::Zero().max(kMostHeld - absSum(axis) * size);
   const Lanes reached = Lanes::Zero().max(gap).min(held);
-  return (1.0F - kUnits) * reached * (reached / dot(axis, axis).max(kLeast));
+  return (1.0F - kFloatRounding) * reached * (reached / dot(axis, axis).max(kLeast));
 }
 
 /// So that floats hold the square of its length.
 Vectors scaled(const Vectors& axis) {
-  constexpr float kLeast = 1e-30F;
   const Lanes scale = 1.0F / absMax(axis).max(kLeast);
   return {scale * axis.x, scale * axis.y, scale * axis.z};
 }
@@ -81,7 +80,7 @@ Lanes combined(const Vectors& a, const Lanes& squaredAlongA, const Vectors& b,
 Lanes certain(const Lanes& squares) {
   return Lanes::Zero()
       .max(squares - std::numeric_limits<float>::min())
-      .min((1.0F - kUnits) * std::numeric_limits<float>::max());
+      .min((1.0F - kFloatRounding) * std::numeric_limits<float>::max());
 }
 
 } // namespace
@@ -100,14 +99,14 @@ Lanes TrianglePacket::squaredDistances(const Vec3& p, float rounding, double rea
   const Vectors origin = broadcast(p);
   const Vectors t[3] = {corners_[0] - origin, corners_[1] - origin, corners_[2] - origin};
   const Lanes size = mostOf(absMax(t[0]), absMax(t[1]), absMax(t[2]));
-  const Lanes error = rounding + kUnits * size;
+  const Lanes error = rounding + kFloatRounding * size;
   const auto gap = [](const Lanes& a, const Lanes& b, const Lanes& c) -> Lanes {
     return leastOf(a, b, c).max(-mostOf(a, b, c));
   };
   const Lanes x = Lanes::Zero().max(gap(t[0].x, t[1].x, t[2].x) - error);
   const Lanes y = Lanes::Zero().max(gap(t[0].y, t[1].y, t[2].y) - error);
   const Lanes z = Lanes::Zero().max(gap(t[0].z, t[1].z, t[2].z) - error);
-  const Lanes ofBoxes = (1.0F - kUnits) * (x.square() + y.square() + z.square());
+  const Lanes ofBoxes = (1.0F - kFloatRounding) * (x.square() + y.square() + z.square());
   const auto along = [&](const Vectors& axis) -> Lanes {
     const Lanes found = gap(dot(axis, t[0]), dot(axis, t[1]), dot(axis, t[2]));
     return squaredLength(found - error * absSum(axis), axis, size);
@@ -127,17 +126,17 @@ Lanes BoxPacket::squaredDistances(const Vec3& p, float rounding, const PlanePack
   const Vectors origin = broadcast(p);
   const Vectors from = Vectors{lower[0], lower[1], lower[2]} - origin;
   const Vectors to = Vectors{upper[0], upper[1], upper[2]} - origin;
-  const Lanes error = rounding + kUnits * absMax(from).max(absMax(to));
+  const Lanes error = rounding + kFloatRounding * absMax(from).max(absMax(to));
   const Lanes x = Lanes::Zero().max(from.x.max(-to.x) - error);
   const Lanes y = Lanes::Zero().max(from.y.max(-to.y) - error);
   const Lanes z = Lanes::Zero().max(from.z.max(-to.z) - error);
-  const Lanes ofBoxes = (1.0F - kUnits) * (x.square() + y.square() + z.square());
+  const Lanes ofBoxes = (1.0F - kFloatRounding) * (x.square() + y.square() + z.square());
   if (planes == nullptr || planes->normal.isZero()) return certain(ofBoxes);
   const Vectors axis = broadcast(planes->normal);
   const Lanes at = dot(axis, origin);
   const Lanes gap =
       Lanes::Zero().max((planes->above - at).max(at - planes->below) - error * absSum(axis));
-  const Lanes ofPlanes = (1.0F - kUnits) * gap.square();
+  const Lanes ofPlanes = (1.0F - kFloatRounding) * gap.square();
   // What lies beside is farther away than the plane.
   const Vectors middle{0.5F * (from.x + to.x), 0.5F * (from.y + to.y), 0.5F * (from.z + to.z)};
   const Lanes up = dot(axis, middle);
@@ -162,9 +161,8 @@ QueryTriangle::QueryTriangle(const Vec3& a, const Vec3& b, const Vec3& c)
   const Vec3& other = sides[0].squaredNorm() < sides[1].squaredNorm() ? sides[0] : sides[1];
   const Vec3 normal = along.cross(other);
   // What rounding leaves of a side that is parallel is no direction.
-  constexpr double kParallel = 1e-12;
-  const Vec3 across = normal.norm() > kParallel * other.norm() ? along.cross(normal).normalized()
-                                                               : along.unitOrthogonal();
+  const Vec3 across = normal.norm() > kSafe * other.norm() ? along.cross(normal).normalized()
+                                                           : along.unitOrthogonal();
   const Vec3 axes[3] = {along, across, along.cross(across)};
   for (int k = 0; k < 3; ++k) {
     frame_[k] = broadcast(axes[k]);
@@ -187,7 +185,7 @@ Lanes QueryTriangle::squaredDistances(const TrianglePacket& triangles, float rou
   const Vectors t[3] = {triangles.corner(0) - a_, triangles.corner(1) - a_,
                         triangles.corner(2) - a_};
   const Lanes size = mostOf(absMax(t[0]), absMax(t[1]), absMax(t[2])).max(size_);
-  const Lanes error = rounding + kUnits * size;
+  const Lanes error = rounding + kFloatRounding * size;
   Lanes inFrame[3];
   for (int k = 0; k < 3; ++k) {
     const Vectors& axis = frame_[k];
@@ -212,7 +210,7 @@ Lanes QueryTriangle::squaredDistances(const TrianglePacket& triangles, float rou
   const Lanes gap =
       (leastOf(p, q, r) - b.max(c).max(0.0F)).max(b.min(c).min(0.0F) - mostOf(p, q, r));
   const Lanes ofNormals = squaredLength(gap - error * absSum(axis), axis, size);
-  return certain(((1.0F - kUnits) * (inPlane + inFrame[2])).max(ofNormals));
+  return certain(((1.0F - kFloatRounding) * (inPlane + inFrame[2])).max(ofNormals));
 }
 
 Lanes QueryTriangle::squaredDistances(const BoxPacket& boxes, float rounding,
@@ -221,7 +219,7 @@ Lanes QueryTriangle::squaredDistances(const BoxPacket& boxes, float rounding,
   const Lanes* const upper = boxes.upper;
   const Vectors from = Vectors{lower[0], lower[1], lower[2]} - a_;
   const Vectors to = Vectors{upper[0], upper[1], upper[2]} - a_;
-  const Lanes error = rounding + kUnits * absMax(from).max(absMax(to)).max(size_);
+  const Lanes error = rounding + kFloatRounding * absMax(from).max(absMax(to)).max(size_);
   const Vectors middle{0.5F * (from.x + to.x), 0.5F * (from.y + to.y), 0.5F * (from.z + to.z)};
   const Vectors half{0.5F * (to.x - from.x), 0.5F * (to.y - from.y), 0.5F * (to.z - from.z)};
   const auto reachAlong = [&](const Vectors& axis) -> Lanes {
@@ -241,7 +239,7 @@ Lanes QueryTriangle::squaredDistances(const BoxPacket& boxes, float rounding,
     inPlane = inPlane.max(Lanes::Zero().max(gap - error * absSum(axis)).square());
   }
   const auto inFrame = [&]() -> Lanes {
-    return (1.0F - kUnits) * (inPlane + Lanes::Zero().max(gaps[2]).square());
+    return (1.0F - kFloatRounding) * (inPlane + Lanes::Zero().max(gaps[2]).square());
   };
   if (planes == nullptr || planes->normal.isZero()) return certain(inFrame());
   const Vectors normal = broadcast(planes->normal);
@@ -262,7 +260,7 @@ Lanes QueryTriangle::squaredDistances(const BoxPacket& boxes, float rounding,
   const Lanes c = dot(normal, c_);
   const Lanes gap = (above - b.max(c).max(0.0F)).max(b.min(c).min(0.0F) - below);
   const Lanes ofPlanes = Lanes::Zero().max(gap - error * absSum(normal)).square();
-  return certain(inFrame().max((1.0F - kUnits) * ofPlanes));
+  return certain(inFrame().max((1.0F - kFloatRounding) * ofPlanes));
 }
 
 WayOfTriangle::WayOfTriangle(const Vec3& a, const Vec3& b, const Vec3& c,
@@ -293,8 +291,9 @@ Lanes WayOfTriangle::squaredDistances(const BoxPacket& boxes, float rounding) co
                            (by.z * from.z).max(by.z * to.z);
     away = away.min(least_[k] - farthest);
   }
-  away -= (rounding + kUnits * size) * ways_;
-  const Lanes squares = (1.0F - kUnits) * before_ + 2.0F * away - kUnits * away.abs();
+  away -= (rounding + kFloatRounding * size) * ways_;
+  const Lanes squares =
+      (1.0F - kFloatRounding) * before_ + 2.0F * away - kFloatRounding * away.abs();
   // Nothing is known where floats do not hold the products.
   return (size * ways_ < kMostHeld).select(squares - std::numeric_limits<float>::min(), 0.0F);
 }

@@ -4,13 +4,18 @@
 
 #include "core/base/types.h"
 
+#include <limits>
+
 namespace massprops {
 
 /// A number for each of four.
 using Lanes = Eigen::Array4f;
 
+/// More than a chain of a dozen operations with floats loses, as a share.
+constexpr float kFloatRounding = 16.0F * std::numeric_limits<float>::epsilon();
+
 /// Distances are in the unit of the corners. Bounds make room for their rounding; `rounding` is
-/// what coordinates lose as floats: 8 units in the last place of the largest of the four triangles.
+/// what coordinates lose as floats: `kFloatRounding` of the largest of the four triangles.
 class TrianglePacket {
 public:
   /// Triangle i, 0…3. Those that are not set lie in the origin.

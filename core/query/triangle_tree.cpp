@@ -1,6 +1,6 @@
 #include "core/query/triangle_tree.h"
 
-#include "core/base/interruption.h"
+#include "core/base/infinity.h"
 #include "core/base/parallel.h"
 #include "core/base/triangle.h"
 #include "core/query/triangle_distance.h"
@@ -14,75 +14,8 @@ namespace massprops {
 namespace {
 
 constexpr Eigen::Index kChunk = 4096;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr Eigen::Index kLarge = 500000; // triangles
 /// Of what is kept out: none at all would be a crossing's.
 constexpr double kLeastClearance = 1e-12;
-
-/// Leaves of a tree over so many triangles, with at most four for each: a power of two. Of large
-/// trees, whose memory counts, roots · 4^k, so that they are nearly full: for that searches begin
-/// at up to fifteen roots.
-Eigen::Index leafCount(Eigen::Index triangles) {
-  constexpr Eigen::Index kMostRoots = 16;
-  Eigen::Index leaves = 1;
-  if (triangles <= kLarge) {
-    while (4 * leaves < triangles) leaves *= 2;
-    return leaves;
-  }
-  Eigen::Index below = 1; // a root
-  while (4 * kMostRoots * below < triangles) below *= 4;
-  return (triangles + 4 * below - 1) / (4 * below) * below;
-}
-
-/// Leaves below each of as few roots as can be.
-Eigen::Index leavesOfRoot(Eigen::Index leaves) {
-  Eigen::Index below = 1;
-  while (leaves % (4 * below) == 0) below *= 4;
-  return below;
-}
-
-struct Centre {
-  float position[3];
-  int face;
-};
-
-/// Orders the centres for the leaves first … first + count − 1 of all `leaves`, which hold `all`
-/// triangles together.
-void cut(std::vector<Centre>& centres, Eigen::Index first, Eigen::Index count,
-         Eigen::Index leaves) {
-  if (count == 1) return;
-  constexpr Eigen::Index kWorthAThread = 4096;
-  if (count >= kWorthAThread) checkpoint();
-  const auto all = static_cast<Eigen::Index>(centres.size());
-  const auto place = [&](Eigen::Index leaf) { return centres.begin() + leaf * all / leaves; };
-  float lower[3] = {1e30F, 1e30F, 1e30F};
-  float upper[3] = {-1e30F, -1e30F, -1e30F};
-  for (auto c = place(first); c != place(first + count); ++c) {
-    for (int k = 0; k < 3; ++k) {
-      lower[k] = std::min(lower[k], c->position[k]);
-      upper[k] = std::max(upper[k], c->position[k]);
-    }
-  }
-  int axis = 0;
-  for (int k = 1; k < 3; ++k) {
-    if (upper[k] - lower[k] > upper[axis] - lower[axis]) axis = k;
-  }
-  const Eigen::Index ofRoot = leavesOfRoot(leaves);
-  const Eigen::Index half = count > ofRoot ? count / ofRoot / 2 * ofRoot : count / 2;
-  std::nth_element(place(first), place(first + half), place(first + count),
-                   [axis](const Centre& a, const Centre& b) {
-                     return a.position[axis] < b.position[axis] ||
-                            (a.position[axis] == b.position[axis] && a.face < b.face);
-                   });
-  const auto left = [&] { cut(centres, first, half, leaves); };
-  const auto right = [&] { cut(centres, first + half, count - half, leaves); };
-  if (count == leaves && leaves >= kWorthAThread) {
-    inParallel(left, right);
-  } else {
-    left();
-    right();
-  }
-}
 
 float below(double x) {
   const auto f = static_cast<float>(x);
@@ -90,40 +23,7 @@ float below(double x) {
                                     : f;
 }
 
-float above(double x) {
-  return -below(-x);
-}
-
-Vec3 nearestOnTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 w = nearestWeights(p, a, b, c);
-  return w[0] * a + w[1] * b + w[2] * c;
-}
-
 } // namespace
-
-std::vector<int> spatialOrder(const Points& vertices, const Faces& faces) {
-  std::vector<Centre> centres(static_cast<std::size_t>(faces.rows()));
-  // Relative to the box, for a float has few digits. Vertices that no face uses are not looked at:
-  // there may be many more of them than faces.
-  Eigen::AlignedBox3d box;
-  for (Eigen::Index i = 0; i < faces.size(); ++i) {
-    box.extend(Vec3(vertices.row(faces.data()[i]).transpose()));
-  }
-  const Eigen::RowVector3d origin = box.min().transpose();
-  const double size = faces.rows() > 0 ? (box.max() - box.min()).maxCoeff() : 0.0;
-  const double scale = size > 0.0 ? 1.0 / size : 0.0;
-  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
-    const Eigen::RowVector3d sum =
-        vertices.row(faces(f, 0)) + vertices.row(faces(f, 1)) + vertices.row(faces(f, 2));
-    const Eigen::RowVector3f centre = ((sum - 3.0 * origin) * scale).cast<float>();
-    centres[static_cast<std::size_t>(f)] = {{centre[0], centre[1], centre[2]}, static_cast<int>(f)};
-  }
-  const Eigen::Index leaves = leafCount(faces.rows());
-  cut(centres, 0, leaves, leaves);
-  std::vector<int> order(centres.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = centres[i].face;
-  return order;
-}
 
 TriangleTree::TriangleTree(const Points& vertices, const Faces& faces, Order order, Queries queries)
     : TriangleTree(vertices, faces,
@@ -179,9 +79,7 @@ void TriangleTree::makeBoxes(Queries queries) {
     const Box& box = level[static_cast<std::size_t>(root)];
     box_ = {box_.lower.min(box.lower), box_.upper.max(box.upper)};
   }
-  constexpr float kUnits = 8.0F;
-  rounding_ = kUnits * std::numeric_limits<float>::epsilon() *
-              std::max(box_.lower.abs().maxCoeff(), box_.upper.abs().maxCoeff());
+  rounding_ = kFloatRounding * std::max(box_.lower.abs().maxCoeff(), box_.upper.abs().maxCoeff());
 }
 
 void TriangleTree::makePlanes() {
@@ -213,14 +111,14 @@ PlanePacket TriangleTree::planesOf(Eigen::Index firstLeaf, Eigen::Index leaves) 
     double low = kInfinity;
     double high = -kInfinity;
     for (Eigen::Index i = firstPlace(first); i < firstPlace(first + leaves / 4); ++i) {
-      for (int k = 0; k < 3; ++k) {
-        const double at = normal.dot(corner(faceAt(i), k) - centre_);
+      for (const int v : faces_.row(faceAt(i))) {
+        const double at = normal.dot(vertices_.row(v).transpose() - centre_);
         low = std::min(low, at);
         high = std::max(high, at);
       }
     }
     planes.above[child] = below(low);
-    planes.below[child] = above(high);
+    planes.below[child] = -below(-high);
   }
   return planes;
 }
@@ -230,7 +128,7 @@ TriangleTree::Box TriangleTree::around(const Vec3& lower, const Vec3& upper) con
   Box box;
   for (int k = 0; k < 3; ++k) {
     box.lower[k] = below(lower[k] - centre_[k]);
-    box.upper[k] = above(upper[k] - centre_[k]);
+    box.upper[k] = -below(centre_[k] - upper[k]);
   }
   return box;
 }
@@ -248,12 +146,11 @@ TrianglePacket TriangleTree::trianglesOf(Eigen::Index leaf) const {
 
 TriangleTree::Box TriangleTree::boxOf(Eigen::Index begin, Eigen::Index end) const {
   Vec3 lower = Vec3::Constant(kInfinity);
-  Vec3 upper = Vec3::Constant(-kInfinity);
+  Vec3 upper = -lower;
   for (Eigen::Index i = begin; i < end; ++i) {
-    for (int k = 0; k < 3; ++k) {
-      const Vec3 p = corner(faceAt(i), k);
-      lower = lower.cwiseMin(p);
-      upper = upper.cwiseMax(p);
+    for (const int v : faces_.row(faceAt(i))) {
+      lower = lower.cwiseMin(vertices_.row(v).transpose());
+      upper = upper.cwiseMax(vertices_.row(v).transpose());
     }
   }
   return around(lower, upper);
@@ -267,9 +164,9 @@ Lanes TriangleTree::squaredGaps(const BoxPacket& boxes, const Box& other) const 
         (boxes.lower[k] - other.upper[k]).max(other.lower[k] - boxes.upper[k]) - rounding_;
     sum += Lanes::Zero().max(outside).square();
   }
-  return kBelowRounding * Lanes::Zero()
-                              .max(sum - std::numeric_limits<float>::min())
-                              .min(std::numeric_limits<float>::max());
+  return (1.0F - kFloatRounding) * Lanes::Zero()
+                                       .max(sum - std::numeric_limits<float>::min())
+                                       .min(std::numeric_limits<float>::max());
 }
 
 template <class Distances, class Reach, class Visit>
@@ -324,7 +221,7 @@ void TriangleTree::visitWithin(const Distances& distances, const Reach& reach,
 
 double TriangleTree::slightSlack() const {
   constexpr double kSlight = 0.002;
-  return faces_.rows() > kLarge ? kSlight : 0.0;
+  return isLarge(faces_.rows()) ? kSlight : 0.0;
 }
 
 TriangleTree::Hit TriangleTree::nearest(const Vec3& p, double squaredBound, int hintFace,
@@ -395,10 +292,10 @@ double TriangleTree::squaredDistance(const Vec3& a, const Vec3& b, const Vec3& c
         distances, [&] { return least; }, visit);
     return least;
   }
-  const Vec3 were[3] = {earlier->corners[0] - centre_, earlier->corners[1] - centre_,
-                        earlier->corners[2] - centre_};
-  const WayOfTriangle way(a - centre_, b - centre_, c - centre_,
-                          {{were[0], were[1], were[2]}, earlier->distance});
+  const auto& were = earlier->corners;
+  const WayOfTriangle way(
+      a - centre_, b - centre_, c - centre_,
+      {{were[0] - centre_, were[1] - centre_, were[2] - centre_}, earlier->distance});
   visitWithin(
       [&](Eigen::Index node) -> Lanes {
         return distances(node).max(way.squaredDistances(boxesAt(node), rounding_));
@@ -417,9 +314,9 @@ TriangleTree::Hit TriangleTree::clearance(const Vec3& p, const Hit& nearest) con
   const double reach = std::sqrt(nearest.squaredDistance) + keptOutRadius_;
   const Hit core = keptOut_->nearest(p, reach * reach);
   if (core.face < 0) return nearest;
-  const double fromCore = std::sqrt(core.squaredDistance);
-  const double distance = std::max(fromCore - keptOutRadius_, kLeastClearance);
-  const Vec3 away = (p - core.point) / std::max(fromCore, kLeastClearance);
+  const double distance =
+      std::max(std::sqrt(core.squaredDistance) - keptOutRadius_, kLeastClearance);
+  const Vec3 away = (p - core.point).stableNormalized();
   return {distance * distance, nearest.face, p - distance * away};
 }
 
@@ -437,10 +334,8 @@ double TriangleTree::squaredClearance(const Vec3& a, const Vec3& b, const Vec3& 
 }
 
 double TriangleTree::firstHit(const Vec3& start, const Vec3& direction, double limit) const {
-  constexpr double kGrown = 1e-9;
   double best = limit;
   const Vec3 inverse = direction.cwiseInverse();
-  constexpr double kHuge = std::numeric_limits<double>::max();
   const Vec3 from = start - centre_;
   const auto entries = [&](Eigen::Index node) -> Eigen::Array4d {
     const BoxPacket& boxes = boxesAt(node);
@@ -460,8 +355,7 @@ double TriangleTree::firstHit(const Vec3& start, const Vec3& direction, double l
       }
     }
     const Eigen::Array4d missed = beside.max(first - last * (1.0 + 1e-12) - 1e-15);
-    // Infinite where it is above 0.
-    return first + kHuge * (kHuge * missed);
+    return (missed > 0.0).select(kInfinity, first);
   };
   const auto visit = [&](int f) {
     const Vec3 a = corner(f, 0);
@@ -475,10 +369,10 @@ double TriangleTree::firstHit(const Vec3& start, const Vec3& direction, double l
     if (!(std::abs(determinant) > 1e-12 * ab.norm() * ac.norm())) return;
     const Vec3 s = start - a;
     const double u = s.dot(q) / determinant;
-    if (!(u >= -kGrown && u <= 1.0 + kGrown)) return;
+    if (!(u >= -kMeasured && u <= 1.0 + kMeasured)) return;
     const Vec3 r = s.cross(ab);
     const double v = direction.dot(r) / determinant;
-    if (!(v >= -kGrown && u + v <= 1.0 + kGrown)) return;
+    if (!(v >= -kMeasured && u + v <= 1.0 + kMeasured)) return;
     const double t = ac.dot(r) / determinant;
     if (t >= 0.0 && t < best) best = t;
   };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/types.h"
+#include "core/query/spatial_order.h"
 #include "core/query/triangle_packet.h"
 
 #include <algorithm>
@@ -9,11 +10,6 @@
 #include <vector>
 
 namespace massprops {
-
-/// The triangles' numbers in an order in which parts of the list are parts in space, down to the
-/// leaves of a tree: cut in two, and these again, along the longest side of the box around their
-/// centres.
-std::vector<int> spatialOrder(const Points& vertices, const Faces& faces);
 
 /// Some complete trees over runs of up to four triangles. Refers to the arrays it was made from.
 class TriangleTree {
@@ -82,9 +78,8 @@ public:
                          const EarlierTriangle* earlier = nullptr) const;
 
   /// Length along the unit `direction` to the first triangle that does not have `start` as a
-  /// corner, infinity where there is none. A triangle counts as 1e-9 of its size larger, so that
-  /// no ray slips between two.
-  /// `limit`: what is farther is not looked for.
+  /// corner, infinity where there is none. A triangle counts as a billionth of its size larger, so
+  /// that no ray slips between two. `limit`: what is farther is not looked for.
   double firstHit(const Vec3& start, const Vec3& direction,
                   double limit = std::numeric_limits<double>::infinity()) const;
 
@@ -154,7 +149,6 @@ private:
   /// More than the boxes lose as floats; what far points lose is a share of the gap, as are the
   /// roundings of its square.
   float rounding_ = 0.0F;
-  static constexpr float kBelowRounding = 1.0F - 2e-6F;
 };
 
 /// Length of the chord from row i of `points` along row i of `directions` (unit) to the first

@@ -79,11 +79,11 @@ Inspection inspectResult(const CavityTask& task, const CavityResult& result,
     return inspectShell(result.inner, cavity, task.surface, task.wall, task.stored);
   if (task.model.outer) {
     const TriangleTree moved(result.outer, task.surface.faces(), TriangleTree::Order::Spatial);
-    return inspect(result.inner, cavity, moved, task.wall, true, LookFirst::ForAll, nullptr,
-                   task.stored);
+    Inspection inspection = inspect(result.inner, cavity, moved, task.wall, nullptr, task.stored);
+    inspection.outerCrossing = outerCrossings(moved, task.stored);
+    return inspection;
   }
-  return inspect(result.inner, cavity, task.surface, task.wall, false, LookFirst::ForAll,
-                 &clearance, task.stored);
+  return inspect(result.inner, cavity, task.surface, task.wall, &clearance, task.stored);
 }
 
 /// One search from the middle of the bounds to a cavity that passes inspection, in rounds.

@@ -12,8 +12,7 @@ namespace {
 Inspection ofCubes(double distance, double wanted) {
   const TriangleMesh outer = box({1.0, 1.0, 1.0}, 4);
   const TriangleMesh inner = box(Vec3::Constant(1.0 - 2.0 * distance), 3);
-  return inspect(inner.vertices, inner.faces, TriangleTree(outer.vertices, outer.faces), wanted,
-                 false);
+  return inspect(inner.vertices, inner.faces, TriangleTree(outer.vertices, outer.faces), wanted);
 }
 
 TEST(Inspection, LetsNoWallPassThatIsThinnerThanTheWantedOne) {
@@ -41,9 +40,7 @@ TEST(Inspection, SeesFacesThatTouchOnlyWhereTheyAreStored) {
     const auto rounded = [&](const Points& points) {
       return Points((points.array() / step).round() * step);
     };
-    return inspect(inner.vertices, inner.faces, tree, 0.01, false, LookFirst::ForAll, nullptr,
-                   rounded)
-        .isClean();
+    return inspect(inner.vertices, inner.faces, tree, 0.01, nullptr, rounded).isClean();
   };
   EXPECT_TRUE(isClean(1e-12));
   EXPECT_FALSE(isClean(1e-6));

@@ -66,8 +66,9 @@ TEST(Drilled, TakesAConeOutAndAPlugIsThatConeLessTheClearance) {
   const double clearance = 0.1;
   const auto body = drilled(outer, cavity, {hole}, clearance, asTheyAre);
   ASSERT_TRUE(body);
-  // 32 sides around the cone: tan(π/32)/(π/32) of it.
-  const double sides = std::tan(kPi / 32) / (kPi / 32);
+  // n sides around the cone: tan(π/n)/(π/n) of it.
+  const double angle = kPi / Hole::kSides;
+  const double sides = std::tan(angle) / angle;
   const double r0 = hole.radiusAt(0.5);
   const double r1 = hole.radiusAt(1.5);
   EXPECT_NEAR(1000.0 - 512.0 - volumeOf(body->body), sides * coneVolume(r0, r1, 1.0), 1e-9);
