@@ -144,7 +144,8 @@ std::vector<int> usedBy(const Faces& faces) {
 /// between its bounds; these are the ones that it starts with.
 BoundsTask boundsTask(const CavityTask& task) {
   BoundsTask result{task.model, &task.goal, task.weights, {}, {}};
-  result.model.innerFaces = searchCavity(task, {}).cavity.faces;
+  CavityTask searched = task;
+  result.model.innerFaces = searchCavity(searched, {}).cavity.faces;
   result.model.inner.lower = task.model.inner.lower.cwiseMin(task.model.inner.upper);
   const MovingSurface& surface = *task.model.surface;
   result.functions.resize(surface.vertices.rows(), surface.basis.functions.cols());

@@ -221,7 +221,8 @@ std::optional<Mended> mendedComponent(const TriangleMesh& component,
     present = std::move(others);
   }
   result.left = present.size();
-  if (result.left == crossing.size() || (all && result.left > 0) || !task.wall.hides(result.distance))
+  if (result.left == crossing.size() || (all && result.left > 0) ||
+      !task.wall.hides(result.distance))
     return std::nullopt;
   result.mesh = submesh(result.mesh.vertices, result.mesh.faces).mesh;
   return result;
