@@ -21,9 +21,10 @@ constexpr double kOnAFacet = 2.0; // degrees
 /// Faces of the hull that are looked at for a proof, over all boxes of centres of mass: a second or
 /// two.
 constexpr std::ptrdiff_t kMostFaces = 6000000;
-/// What holds the centres of mass is taken wider, in diagonals, where that will do as well: it is
-/// proved in half of the time then.
-constexpr double kWidening = 4e-3;
+/// What holds the centres of mass is taken wider in such steps, in diagonals, while that will do as
+/// well: it is proved in half of the time then, and by coarser means.
+constexpr double kWidening = 2e-3;
+constexpr int kWidenings = 5;
 
 double tiltOf(const Vec3& down) {
   return std::acos(std::clamp(-down.z(), -1.0, 1.0)) * kDegrees;
@@ -72,18 +73,23 @@ public:
                                     const std::function<HalfSpaces()>& centres) const override {
     if (rollsUpright(posesAt(massProperties(best).centerOfMass))) return std::nullopt;
     HalfSpaces set = centres();
-    std::optional<HalfSpaces> needed = settled(set);
-    if (!needed) return std::nullopt;
-    set.limits.array() += kWidening;
-    std::optional<HalfSpaces> wider = settled(set);
-    return wider ? wider : needed;
+    std::ptrdiff_t left = kMostFaces;
+    std::optional<HalfSpaces> needed = settled(set, left);
+    left = std::min(left, 4 * (kMostFaces - left));
+    for (int i = 0; needed && i < kWidenings; ++i) {
+      set.limits.array() += kWidening;
+      std::optional<HalfSpaces> wider = settled(set, left);
+      if (!wider) break;
+      needed = std::move(wider);
+    }
+    return needed;
   }
 
 private:
   /// Branch and bound over boxes of centres: each has nothing of the set, or keeps a resting pose
-  /// that is not upright, or is cut in two. The half-spaces that this takes.
-  std::optional<HalfSpaces> settled(const HalfSpaces& set) const {
-    std::ptrdiff_t left = kMostFaces;
+  /// that is not upright, or is cut in two. The half-spaces that this takes. `left`: of the faces
+  /// that may be looked at.
+  std::optional<HalfSpaces> settled(const HalfSpaces& set, std::ptrdiff_t& left) const {
     std::vector<Eigen::AlignedBox3d> boxes{boundsOf(hull_.vertices)};
     std::vector<Eigen::AlignedBox3d> outside;
     while (!boxes.empty()) {
