@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Runs what README.md shows of the program and of the Python package, as it stands there.
+"""Runs what the pages show of the program and of the Python package, as it stands there.
 
 usage: readme.py <build folder>
 """
@@ -14,8 +14,11 @@ import textwrap
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
+PAGES = ("README.md", "docs/command_line.md", "docs/python.md")
+
+
 def blocks(language):
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    text = "\n".join((ROOT / page).read_text(encoding="utf-8") for page in PAGES)
     found = re.findall(rf"^( *)```{language}\n(.*?)^ *```", text, re.MULTILINE | re.DOTALL)
     return [textwrap.dedent(block) for _, block in found]
 
@@ -29,7 +32,7 @@ def main(build):
         (work / "build").mkdir()
         (work / "build" / "release").symlink_to(build)
         for language, examples in shown:
-            assert len(examples) >= 2, f"README has {len(examples)} examples in {language}"
+            assert len(examples) >= 2, f"the pages have {len(examples)} examples in {language}"
             for example in examples:
                 print(example)
                 command = ["sh", "-euc"] if language == "sh" else [sys.executable, "-c"]

@@ -1,4 +1,4 @@
-"""What README.md and docs/hosts.md show of meshlabserver and PyMeshLab, as it stands there."""
+"""What docs/meshlab.md and docs/hosts.md show of meshlabserver and PyMeshLab, as it stands there."""
 import ast
 import os
 import re
@@ -8,7 +8,7 @@ import unittest
 from host import (ROOT, SAMPLES, HostTest, bounds_a_volume, changed_script, host_folder, layers_of,
                   read_ply, report_in)
 
-PAGES = ("README.md", "docs/hosts.md")
+PAGES = ("docs/meshlab.md", "docs/hosts.md")
 FILTER_CALLS = ("apply_filter", "mass_property_optimization")
 
 
