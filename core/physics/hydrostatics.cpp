@@ -1,5 +1,6 @@
 #include "core/physics/hydrostatics.h"
 
+#include "core/base/interruption.h"
 #include "core/base/triangle.h"
 #include "core/physics/immersion.h"
 
@@ -52,6 +53,7 @@ public:
 
 Displacement displacement(const Points& vertices, const Faces& faces, const Vec3& up,
                           double level) {
+  checkpoint();
   const Mat3 frame = frameOf(up);
   // Near the body, lest the integrals cancel.
   const Vec3 mean = vertices.colwise().mean().transpose();

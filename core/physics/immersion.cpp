@@ -1,5 +1,6 @@
 #include "core/physics/immersion.h"
 
+#include "core/base/interruption.h"
 #include "core/base/triangle.h"
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 namespace massprops {
 
 Immersion::Immersion(const Points& vertices, const Faces& faces, const Vec3& up) {
+  checkpoint();
   const Vector heights = vertices * up;
   lowest_ = heights.minCoeff();
   height_ = heights.maxCoeff() - lowest_;
@@ -29,6 +31,7 @@ Immersion::Immersion(const Points& vertices, const Faces& faces, const Vec3& up)
 }
 
 Immersion::Sums Immersion::below(double level) const {
+  checkpoint();
   // With w = height − level, V = ∫w n_z dA and ∫(−w)dV = −∫½w² n_z dA over the wet surface: the
   // waterplane has w = 0. Over a triangle with w = 0 on one edge and w at the third corner the
   // means of w and w² are w/3 and w²/6; by such a triangle a face that is cut differs from nothing

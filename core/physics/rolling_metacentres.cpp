@@ -1,5 +1,6 @@
 #include "core/physics/rolling_metacentres.h"
 
+#include "core/base/interruption.h"
 #include "core/base/circle.h"
 
 #include <cmath>
@@ -19,6 +20,7 @@ RollingMetacentres rollingMetacentres(const Points& points) {
   result.slopes.resize(kTilts * kAround, 2);
   result.heights.resize(kTilts * kAround);
   for (int meridian = 0; meridian < kAround; ++meridian) {
+    checkpoint();
     const Vec2 outwards = onCircle(meridian);
     const Vector along = points.leftCols<2>() * outwards;
     const auto support = [&](double tilt) {

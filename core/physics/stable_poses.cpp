@@ -1,5 +1,6 @@
 #include "core/physics/stable_poses.h"
 
+#include "core/base/interruption.h"
 #include "core/base/angles.h"
 #include "core/base/triangle.h"
 #include "core/mesh/cgal_mesh.h"
@@ -241,6 +242,7 @@ HalfSpaces belowUpright(const Landscape& land, Index rest, double away) {
 } // namespace
 
 RollingHull rollingHull(const Points& vertices) {
+  checkpoint();
   std::vector<SurfaceKernel::Point_3> points;
   points.reserve(static_cast<std::size_t>(vertices.rows()));
   for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
