@@ -121,6 +121,7 @@ double peakMegabytes(const Sample& sample) {
   if (child == 0) {
     Options options;
     options.goal = sample.goal;
+    options.cavityShape = CavityShape::Offset;
     optimizeMassProperties(readSample(sample), options);
     _exit(0);
   }
@@ -164,6 +165,7 @@ void printSample(const Sample& sample, double memory) {
   const TriangleMesh model = arrays(mesh);
   Options options;
   options.goal = sample.goal;
+  options.cavityShape = CavityShape::Offset;
 
   std::vector<double> skeleton;
   std::vector<double> basis;

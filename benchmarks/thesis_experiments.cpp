@@ -70,6 +70,7 @@ double number(const Report& report, const std::string& key) {
 Options optionsFor(const Sample& sample) {
   Options options;
   options.goal = sample.goal;
+  options.cavityShape = CavityShape::Offset;
   return options;
 }
 

@@ -27,8 +27,8 @@ std::optional<Result> hollowedOnFoot(PreparedModel& model, std::optional<double>
     footDepth = depthOfBetterFoot(prepared, foundation, options);
     if (footDepth) return std::nullopt;
   }
-  // Offsets that serve the goal best, within bounds that close in until nothing crosses; where they
-  // fall short, what lies behind the walls on one side of the best quadric.
+  // What lies behind the walls on one side of the best quadric; or offsets that serve the goal
+  // best, within bounds that close in until nothing crosses.
   const Search found = search(prepared, foundation, options, bar);
   // The surfaces in the model's own place, and everything measured on them.
   Result result = deliver(prepared, foundation, found, options, bar);

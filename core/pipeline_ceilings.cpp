@@ -59,7 +59,7 @@ CavityResult carriedCavity(const Preparation& model, const Possible& possible,
       best = std::move(cavity);
       fewest = tips.size();
     }
-    if (tips.empty() || !found->filled) break;
+    if (tips.empty() || !found->filled || round + 1 == kRounds) break;
     found.emplace(withColumns(printing, *found, tips));
   }
   effort.secondsOptimization = time.seconds() - effort.secondsInspection;

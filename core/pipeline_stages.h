@@ -113,8 +113,8 @@ struct Foundation {
 Foundation coarsen(const Preparation& model, const Options& options, ProgressBar& bar,
                    Resolution resolution = Resolution::Coarse);
 
-/// Where no cavity reaches the goal on the foot as it was cut: the depth of one on which a cavity
-/// does, or comes nearer to it. Empty: that foot is as good as any, or there is none.
+/// Where no cavity reaches the goal amply on the foot as it was cut: the depth of one on which a
+/// cavity does, or comes nearer to it. Empty: that foot is as good as any, or there is none.
 std::optional<double> depthOfBetterFoot(const Preparation& model, const Foundation& foundation,
                                         const Options& options);
 

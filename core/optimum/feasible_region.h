@@ -106,7 +106,7 @@ private:
 /// \throw std::invalid_argument when it has more
 FeasibleRegion feasibleRegion(const FeasibleSet& set, double edge);
 
-/// The edge with which a cavity's surface leaves about half a per cent of what is possible: such
+/// The edge with which a cavity's surface leaves about a per cent of what is possible: such
 /// that so many cubes lie on the border, and a node of them well inside of each room as wide as the
 /// ball.
 double edgeFor(const FeasibleSet& set);

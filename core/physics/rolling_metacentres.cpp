@@ -1,7 +1,7 @@
 #include "core/physics/rolling_metacentres.h"
 
-#include "core/base/interruption.h"
 #include "core/base/circle.h"
+#include "core/base/interruption.h"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 #include "core/physics/stable_poses.h"
 
-#include "core/base/interruption.h"
 #include "core/base/angles.h"
+#include "core/base/interruption.h"
 #include "core/base/triangle.h"
 #include "core/mesh/cgal_mesh.h"
 

@@ -540,8 +540,8 @@ double aboveMetacentres(const Upright& frame, const Points& points, const Vec3& 
   }
   const double most = *std::max_element(above.begin(), above.end());
   double sum = 0.0;
-  for (const double a : above) sum += std::exp(60.0 * (a - most));
-  return most + std::log(sum) / 60.0;
+  for (const double a : above) sum += std::exp(70.0 * (a - most));
+  return most + std::log(sum) / 70.0;
 }
 
 /// `points`: of the outer surface.
