@@ -89,10 +89,6 @@ Preparation prepare(PreparedModel& model, const std::optional<double>& footDepth
 /// that stays; else the offset surface.
 bool isBestPossible(const Options& options, bool isOpen);
 
-/// Cells in the model's bounding box, of which the best quadric is found: half as wide they change
-/// the limit by a tenth of a per cent.
-constexpr double kCells = 20000.0;
-
 /// The best of all cavities within an outer surface.
 struct Possible {
   std::shared_ptr<const Room> room;

@@ -25,23 +25,25 @@ double greatestDeviation(double most, const std::function<bool(double)>& holds) 
 }
 
 /// Moments of what a slicer prints as infill: the material farther than the perimeters from its
-/// surfaces.
+/// surfaces. Of the body that far behind the outer surface, what the cavity is that much larger;
+/// by less where the wall is not as thick as both perimeters, for nothing in it is infill then.
 Moments deepMaterial(const CavityTask& task, const CavityResult& cavity, double perimeters) {
-  constexpr double kMostCells = 200000.0; // in the model's bounding box
   // A tree of the model costs as much as all else here.
   const TriangleTree& given = task.surface;
   std::optional<TriangleTree> own;
   if (given.keepsOut() || cavity.outer != given.vertices())
     own.emplace(cavity.outer, given.faces(), TriangleTree::Order::Spatial);
   const TriangleTree& outer = own ? *own : given;
-  const TriangleTree inner(cavity.inner, cavity.cavity.faces);
-  const FeasibleSet deep{outer, perimeters, 0.0, cavity.cavity.faces.rows() > 0 ? &inner : nullptr};
-  const Vec3 extent = outer.upper() - outer.lower();
-  const double edge = std::max(std::cbrt(extent.prod() / kMostCells), extent.maxCoeff() / 400.0);
-  const FeasibleRegion region = feasibleRegion(deep, edge);
+  const double edge = std::cbrt((outer.upper() - outer.lower()).prod() / kCells);
+  const FeasibleRegion region = feasibleRegion({outer, perimeters, 0.0}, edge);
   if (region.isEmpty()) return Moments::Zero();
-  const AdmissibleCells cells = admissibleCells(region, Admissible::BehindWalls, kMostCells);
-  return cells.colwise().sum().transpose();
+  Moments deep =
+      admissibleCells(region, Admissible::BehindWalls, kCells).colwise().sum().transpose();
+  if (const Faces& faces = cavity.cavity.faces; faces.rows() > 0) {
+    const double larger = std::min(perimeters, cavity.inspection.leastWall - perimeters);
+    deep -= moments(cavity.inner + larger * vertexNormals(cavity.inner, faces), faces);
+  }
+  return deep[0] > 0.0 ? deep : Moments::Zero();
 }
 
 /// Moments of a surface whose vertices go by t along their directions, −most ≤ t ≤ most: in t

@@ -17,6 +17,9 @@ enum class Admissible {
   Reached,     ///< of that what the ball reaches
 };
 
+/// In the model's bounding box: half as wide they change the limit by a tenth of a per cent.
+constexpr double kCells = 20000.0;
+
 /// Equal cubes of as many of the region's edges as makes about `most` of them in its bounding box.
 /// In the cubes on the border the function whose sign tells the region is taken as trilinear.
 AdmissibleCells admissibleCells(const FeasibleRegion& region, Admissible which, double most);

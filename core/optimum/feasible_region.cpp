@@ -247,29 +247,19 @@ double FeasibleSet::fits() const {
   return wall + kJustFits * 0.5 * ball;
 }
 
-RegionProbe::RegionProbe(const FeasibleSet& set) : set_(set), inside_(set.surface) {
-  if (set.hole != nullptr) insideHole_.emplace(*set.hole);
-}
+RegionProbe::RegionProbe(const FeasibleSet& set) : set_(set), inside_(set.surface) {}
 
 Sample RegionProbe::depthAt(const Vec3& x, double exact, bool isInside) {
-  const auto signedDistance = [&](const TriangleTree& surface, const PointInMesh& inside,
-                                  bool isSideKnown, TriangleTree::Hit& nearest) {
-    nearest = surface.nearest(x, kInfinity, nearest.face, exact * exact);
-    bool isIn = isSideKnown;
-    // Only the very nearest face tells the side.
-    if (!isSideKnown)
-      isIn = inside.contains(x, nearest.squaredDistance > exact * exact
-                                    ? surface.nearest(x, kInfinity, nearest.face)
-                                    : nearest);
-    const TriangleTree::Hit clear = surface.clearance(x, nearest);
-    const double sign = isIn ? 1.0 : -1.0;
-    const double distance = std::sqrt(clear.squaredDistance);
-    return Sample{sign * distance, sign * (x - clear.point) / std::max(distance, 1e-300)};
-  };
-  Sample depth = signedDistance(set_.surface, inside_, isInside, nearest_);
-  if (set_.hole == nullptr) return depth;
-  const Sample inHole = signedDistance(*set_.hole, *insideHole_, false, nearestOfHole_);
-  return -inHole.value < depth.value ? Sample{-inHole.value, -inHole.slope} : depth;
+  nearest_ = set_.surface.nearest(x, kInfinity, nearest_.face, exact * exact);
+  // Only the very nearest face tells the side.
+  if (!isInside)
+    isInside = inside_.contains(x, nearest_.squaredDistance > exact * exact
+                                       ? set_.surface.nearest(x, kInfinity, nearest_.face)
+                                       : nearest_);
+  const TriangleTree::Hit clear = set_.surface.clearance(x, nearest_);
+  const double sign = isInside ? 1.0 : -1.0;
+  const double distance = std::sqrt(clear.squaredDistance);
+  return {sign * distance, sign * (x - clear.point) / std::max(distance, 1e-300)};
 }
 
 double RegionProbe::insetAt(const Vec3& x, double horizon) {

@@ -15,10 +15,9 @@ namespace massprops {
 
 /// What the region is measured by; lengths in the surface's unit.
 struct FeasibleSet {
-  const TriangleTree& surface;        ///< closed, outward
-  double wall;                        ///< least depth behind the surface
-  double ball;                        ///< diameter of the ball that must fit nearby; 0: none
-  const TriangleTree* hole = nullptr; ///< null, or a closed outward surface that is a wall, too
+  const TriangleTree& surface; ///< closed, outward
+  double wall;                 ///< least depth behind the surface
+  double ball;                 ///< diameter of the ball that must fit nearby; 0: none
 
   /// Depth at which the ball's middle may be: what facets take off a room as wide is left out.
   double fits() const;
@@ -97,8 +96,7 @@ public:
 private:
   FeasibleSet set_;
   PointInMesh inside_;
-  std::optional<PointInMesh> insideHole_;
-  TriangleTree::Hit nearest_, nearestOfHole_;
+  TriangleTree::Hit nearest_;
 };
 
 /// Cubes of this edge, found by halving larger ones that the border may pass through: depths change

@@ -348,22 +348,5 @@ TEST(RegionProbe, TellsTheSideOfAFlatBodyFromAfar) {
   EXPECT_GT(in, 50);
 }
 
-TEST(RegionProbe, FindsWallsAroundAHole) {
-  const TriangleMesh outer = box({2.0, 2.0, 2.0}, 3);
-  const Vec3 centre(0.1, -0.2, 0.05);
-  const double radius = 0.5;
-  const TriangleMesh ball = shifted(scaled(sphere(24), radius), centre);
-  const TriangleTree tree(outer.vertices, outer.faces);
-  const TriangleTree hole(ball.vertices, ball.faces);
-  const double wall = 0.1;
-  const FeasibleSet set{tree, wall, 0.0, &hole};
-  const FeasibleRegion region = feasibleRegion(set, 0.05);
-  const double volume = std::pow(1.8, 3) - 4.0 / 3.0 * kPi * std::pow(radius + wall, 3);
-  const AdmissibleCells cells = admissibleCells(region, Admissible::BehindWalls, kMostCells);
-  EXPECT_NEAR(cells.col(0).sum(), volume, 2e-3 * volume);
-  const Vec3 first = -4.0 / 3.0 * kPi * std::pow(radius + wall, 3) * centre;
-  EXPECT_LT((cells.middleCols<3>(1).colwise().sum().transpose() - first).norm(), 2e-3 * volume);
-}
-
 } // namespace
 } // namespace massprops::testing
