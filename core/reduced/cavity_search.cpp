@@ -23,7 +23,7 @@ constexpr int kTrims = 3;
 /// The outer surface starts near where it was: it is to look the same.
 constexpr double kOuterStart = 0.1;
 /// Ends of the cavity go on moving where the objective hardly changes any more.
-constexpr int kMostEvaluations = 200;
+constexpr int kMostEvaluations = 600;
 constexpr double kObjectiveTolerance = 1e-6;
 /// Rounds in which a goal that depends on the outer surface follows its motion; then that rests,
 /// and the cavity is fitted to it.
